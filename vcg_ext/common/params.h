@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace dcharts {
+
+/// Every parameter of the pipeline, with its default (written here and nowhere else), unit and range.
+/// A name means the same in every stage. Section numbers are those of D-Charts (Julius, Kraevoy, Sheffer
+/// 2005).
+struct Params {
+  // --- segmentation (3.1) and hole filling (3.2)
+  int chart_count = 0;  ///< initial seeds, >= 0; 0 = find the number
+  double max_fitting_error =
+      0.2;  ///< F_max, bound of Eq. 1 while growing; 0 < F_max <= 4, no unit (squared cosine)
+  double fitting_weight = 1.0;       ///< alpha of Eq. 2, 0..10
+  double compactness_weight = 0.7;   ///< beta of Eq. 2, 0..10
+  double straightness_weight = 0.5;  ///< gamma of Eq. 2, 0..10
+  int max_iterations = 100;          ///< bound on the Lloyd iterations, 1..10000
+  double reassigned_percent =
+      5.0;                    ///< stop when fewer faces than this changed chart, percent of the faces, 0..100
+  int seed_candidates = 10;   ///< k: a new seed is the most central of the k best-fitting faces, >= 1
+  double seed_percent = 1.0;  ///< k as a percentage of the chart's faces (the larger count is used), 0..100
+  double small_hole_percent =
+      1.0;  ///< holes up to this share of the surface area are grown over, percent, 0..100
+
+  // --- merging (3.3)
+  double merge_threshold =
+      0.01;  ///< eta, bound on the boundary region's mean fitting error to a cylinder, 0..4
+
+  // --- cuts (3.3)
+  double dart_fitting_error = 0.2;  ///< darts run to regions whose fitting error (Eq. 1) is above this, 0..4
+  double max_dart_percent =
+      50.0;  ///< longest dart, percent of its chart's size (sqrt of its area), 0..1000; 0 = no darts
+  bool cut_to_disk = false;  ///< cut every boundary loop open, so that each chart is a disk
+  bool seam_layer = false;   ///< add a layer of seam lines
+
+  // --- flattening and packing (2, 4, 5)
+  int texture_size = 1024;  ///< side of the square texture, texels, 16..65536
+  int padding = 2;          ///< free texels between charts, 0..texture_size / 4
+  bool rotate = true;       ///< charts may be turned for packing
+};
+
+}  // namespace dcharts

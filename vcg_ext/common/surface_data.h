@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "common/report.h"
+
+namespace dcharts {
+
+/// A triangle mesh as plain arrays: what a host hands over. Only live elements, in the host's order.
+struct SurfaceData {
+  std::vector<std::array<double, 3>> vertices;
+  std::vector<std::array<int, 3>> faces;              ///< indices into vertices
+  std::vector<double> face_quality;                   ///< per face, or empty when the host has none
+  std::vector<std::array<float, 6>> wedge_texcoords;  ///< per face u0 v0 u1 v1 u2 v2, or empty
+  std::vector<std::int16_t> wedge_texture_index;      ///< per face (that of its first corner), or empty
+  std::vector<std::uint8_t> seams;  ///< per face, bit i = edge (i, i+1) is a seam; or empty: no attribute
+};
+
+/// What a filter wants written. An empty array means: leave that as it is.
+struct SurfaceChange {
+  std::vector<int> chart_ids;                         ///< per face, -1 = unassigned; goes to face quality
+  std::vector<std::array<std::uint8_t, 3>> colors;    ///< per face RGB
+  std::vector<std::array<float, 6>> wedge_texcoords;  ///< per face; texture index 0
+  std::vector<std::uint8_t> seams;                    ///< per face bit mask, see SurfaceData
+  bool remove_seams = false;                          ///< an older seams attribute must go
+  std::vector<std::array<std::array<double, 3>, 2>>
+      seam_lines;  ///< for a new layer of edges; empty = no layer
+  Report report;
+};
+
+}  // namespace dcharts

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "planar/chart_mesh.h"
+
+namespace dcharts {
+
+struct FlattenOptions {
+  bool linf_finish = true;  ///< lower the worst stretch after the mean stretch
+};
+
+struct Flattening {
+  bool ok = false;          ///< false: no flip-free map was found, the chart needs a cut; `why` says so
+  std::string why;          ///< empty when ok
+  Points2 uv;               ///< #V by 2, finite, every triangle with positive area; UV area = surface area
+  double l2_stretch = 0;    ///< of this chart at its own scale, >= 1
+  double linf_stretch = 0;  ///< largest singular value of UV -> surface, at the chart's own scale
+};
+
+/// Free-boundary, stretch-minimizing flattening without flipped triangles [SGSH02]. The boundary may still
+/// cross itself (global overlap): see overlap.h. `poll` is called now and then and may throw to stop the
+/// work. The result depends on nothing but its arguments.
+Flattening Flatten(const ChartMesh& chart, const FlattenOptions& options = {},
+                   const std::function<void()>& poll = {});
+
+}  // namespace dcharts
