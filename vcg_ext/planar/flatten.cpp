@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planar/flatten.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "planar/boundary_loops.h"
+#include "planar/distortion.h"
+#include "planar/flatten_start_angles.h"
+#include "planar/flatten_start_tutte.h"
+#include "planar/line_search.h"
+#include "planar/rest_shapes.h"
+#include "planar/stretch_descent.h"
+
+namespace dcharts {
+namespace {
+
+using Kind = StretchEnergy::Kind;
+using Poll = std::function<void()>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Symmetric Dirichlet energies over 4, minus 1, as in StretchEnergy:
+constexpr double kGoodStart = 2;     // a start from angles above it is compared with Tutte's
+constexpr double kNewtonWorks = 3;   // above it Newton steps crawl and reweighted ones don't
+constexpr int kReweightedBlock = 3;  // steps
+constexpr int kMaxBlocks = 40;
+
+// The chart at the origin, with a surface area of 1. `scale` receives sqrt(area) in model units; it is zero
+// when no triangle has an area.
+ChartMesh Normalized(const ChartMesh& chart, double& scale) {
+  ChartMesh normalized = chart;
+  const Eigen::RowVector3d low = chart.positions.colwise().minCoeff();
+  const Eigen::RowVector3d high = chart.positions.colwise().maxCoeff();
+  const Eigen::RowVector3d middle = 0.5 * low + 0.5 * high;
+  const double extent = (0.5 * high - 0.5 * low).maxCoeff();
+  scale = 0;
+  if (!(extent > 0)) return normalized;
+  normalized.positions = (chart.positions.rowwise() - middle) / extent;
+  double area = 0;
+  for (Eigen::Index t = 0; t < chart.triangles.rows(); ++t) {
+    const Eigen::RowVector3d a = normalized.positions.row(chart.triangles(t, 0));
+    const Eigen::Vector3d e1 = (normalized.positions.row(chart.triangles(t, 1)) - a).transpose();
+    const Eigen::Vector3d e2 = (normalized.positions.row(chart.triangles(t, 2)) - a).transpose();
+    area += 0.5 * e1.cross(e2).norm();
+  }
+  if (!(area > 0)) return normalized;
+  normalized.positions /= std::sqrt(area);
+  scale = extent * std::sqrt(area);
+  return normalized;
+}
+
+double SymmetricDirichlet(const Triangles& triangles, const RestShapes& shapes, const PlanePoints& uv) {
+  return MapEnergy({Kind::kSymmetricDirichlet, 1}, triangles, shapes, uv);
+}
+
+// Brings a start to the size at which its symmetric Dirichlet energy is least; returns that energy, infinite
+// when the map flips.
+double ScaleToBest(const Triangles& triangles, const RestShapes& shapes, PlanePoints& uv) {
+  double growing = 0, shrinking = 0;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const RestShape& shape = shapes[static_cast<std::size_t>(t)];
+    const Complex z0 = uv[static_cast<std::size_t>(triangles(t, 0))];
+    const Complex e1 = uv[static_cast<std::size_t>(triangles(t, 1))] - z0;
+    const Complex e2 = uv[static_cast<std::size_t>(triangles(t, 2))] - z0;
+    const double determinant = Cross(e1, e2) / shape.twice_area;
+    if (!(determinant > 0)) return kInfinity;
+    const double squares = 2 * (std::norm(Mul(shape.a1, e1) + Mul(shape.a2, e2)) +
+                                std::norm(ConjMul(shape.a1, e1) + ConjMul(shape.a2, e2)));
+    growing += shape.weight * squares;
+    shrinking += shape.weight * squares / determinant / determinant;
+  }
+  const double factor = std::sqrt(std::sqrt(shrinking / growing));
+  if (!std::isfinite(factor) || !(factor > 0)) return kInfinity;
+  for (Complex& z : uv) z *= factor;
+  return SymmetricDirichlet(triangles, shapes, uv);
+}
+
+// The better of the two starts; infinite energy when neither is free of flips.
+double Start(const ChartMesh& chart, const RestShapes& shapes, VertexBlockSystem& system, const Poll& poll,
+             PlanePoints& uv) {
+  constexpr int kAngleSteps = 2;
+  double energy = kInfinity;
+  if (std::optional<PlanePoints> start = StartFromAngles(chart, shapes, kAngleSteps, system)) {
+    uv = std::move(*start);
+    energy = ScaleToBest(chart.triangles, shapes, uv);
+  }
+  if (energy < kGoodStart) return energy;
+  if (poll) poll();
+  if (std::optional<PlanePoints> start = StartFromTutte(chart)) {
+    const double tutte = ScaleToBest(chart.triangles, shapes, *start);
+    if (tutte < energy) {
+      uv = std::move(*start);
+      energy = tutte;
+    }
+  }
+  return energy;
+}
+
+// Reweighted steps while the map is bad, then Newton's.
+void MinimizeSymmetricDirichlet(const Triangles& triangles, const RestShapes& shapes, double energy,
+                                VertexBlockSystem& system, const Poll& poll, PlanePoints& uv) {
+  const StretchEnergy dirichlet{Kind::kSymmetricDirichlet, 1};
+  for (int block = 0; block < kMaxBlocks && energy > kNewtonWorks; ++block) {
+    const double before = energy;
+    energy =
+        Descend(dirichlet, {StepKind::kReweighted, kReweightedBlock, 0}, triangles, shapes, system, poll, uv);
+    if (energy > 0.99 * before) break;
+  }
+  Descend(dirichlet, {StepKind::kProjectedNewton, 60, 1e-3}, triangles, shapes, system, poll, uv);
+}
+
+Flattening Failure(const std::string& why) {
+  Flattening result;
+  result.why = why;
+  return result;
+}
+
+Points2 ToPoints(const PlanePoints& uv, double factor) {
+  Points2 points(static_cast<Eigen::Index>(uv.size()), 2);
+  for (std::size_t v = 0; v < uv.size(); ++v) {
+    points.row(static_cast<Eigen::Index>(v)) << uv[v].real() * factor, uv[v].imag() * factor;
+  }
+  return points;
+}
+
+}  // namespace
+
+Flattening Flatten(const ChartMesh& chart, const FlattenOptions& options, const Poll& poll) {
+  std::string why = WhyNotAChart(chart);
+  if (!why.empty()) return Failure(why);
+  double scale = 0;
+  const ChartMesh normalized = Normalized(chart, scale);
+  if (!(scale > 0) || !std::isfinite(scale)) return Failure("The chart has no area.");
+  if (poll) poll();
+
+  const Triangles& triangles = chart.triangles;
+  RestShapes shapes = RestShapesOf(normalized);
+  VertexBlockSystem system(static_cast<int>(chart.positions.rows()), triangles);
+  PlanePoints uv;
+  const double energy = Start(normalized, shapes, system, poll, uv);
+  if (!std::isfinite(energy)) {
+    return Failure("No flat start without flipped triangles was found: the chart has to be cut.");
+  }
+  MinimizeSymmetricDirichlet(triangles, shapes, energy, system, poll, uv);
+  RelaxSlivers(triangles, uv, shapes);
+  Descend({Kind::kSander, 1}, {StepKind::kProjectedNewton, 15, 1e-4}, triangles, shapes, system, poll, uv);
+  (void)options;
+
+  Flattening result;
+  result.uv = ToPoints(uv, 1.0);
+  const StretchFigures figures = MeasureStretch(normalized, result.uv);
+  if (figures.FlippedOrDegenerate() > 0) return Failure("The flattening lost a triangle to rounding.");
+  result.l2_stretch = figures.L2();
+  result.linf_stretch = figures.Linf();
+  result.uv = ToPoints(uv, scale * std::sqrt(figures.SurfaceArea() / figures.UvArea()));
+  result.ok = true;
+  return result;
+}
+
+}  // namespace dcharts

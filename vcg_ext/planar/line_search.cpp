@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planar/line_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dcharts {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kShareOfWayToFlip = 0.9;
+constexpr double kArmijo = 1e-4;
+constexpr int kMaxHalvings = 40;
+
+const Complex& Corner(const PlanePoints& points, const Triangles& triangles, Eigen::Index t, int k) {
+  return points[static_cast<std::size_t>(triangles(t, k))];
+}
+
+// Smallest positive root of c + b t + a t^2 with c > 0, without cancellation.
+double SmallestPositiveRoot(double a, double b, double c) {
+  const double discriminant = b * b - 4 * a * c;
+  if (discriminant < 0) return kInfinity;
+  const double root = std::sqrt(discriminant);
+  if (b < 0) return 2 * c / (root - b);
+  if (a < 0) return (b + root) / (-2 * a);
+  return kInfinity;
+}
+
+}  // namespace
+
+double MapEnergy(const StretchEnergy& energy, const Triangles& triangles, const RestShapes& shapes,
+                 const PlanePoints& uv) {
+  double sum = 0;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const Complex& z0 = Corner(uv, triangles, t, 0);
+    const RestShape& shape = shapes[static_cast<std::size_t>(t)];
+    const double value =
+        TriangleEnergy(energy, shape, Corner(uv, triangles, t, 1) - z0, Corner(uv, triangles, t, 2) - z0);
+    if (value == kInfinity) return kInfinity;
+    sum += shape.weight * value;
+  }
+  return std::isfinite(sum) ? sum : kInfinity;
+}
+
+double FirstFlip(const Triangles& triangles, const PlanePoints& uv, const PlanePoints& direction) {
+  double first = kInfinity;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const Complex& z0 = Corner(uv, triangles, t, 0);
+    const Complex& d0 = Corner(direction, triangles, t, 0);
+    const Complex e1 = Corner(uv, triangles, t, 1) - z0, e2 = Corner(uv, triangles, t, 2) - z0;
+    const Complex f1 = Corner(direction, triangles, t, 1) - d0, f2 = Corner(direction, triangles, t, 2) - d0;
+    first =
+        std::min(first, SmallestPositiveRoot(Cross(f1, f2), Cross(e1, f2) + Cross(f1, e2), Cross(e1, e2)));
+  }
+  return first;
+}
+
+bool SearchLine(const StretchEnergy& energy, const Triangles& triangles, const RestShapes& shapes,
+                const PlanePoints& direction, double slope, PlanePoints& uv, double& value) {
+  double step = std::min(1.0, kShareOfWayToFlip * FirstFlip(triangles, uv, direction));
+  PlanePoints trial(uv.size());
+  for (int halving = 0; halving < kMaxHalvings; ++halving, step *= 0.5) {
+    for (std::size_t v = 0; v < uv.size(); ++v) trial[v] = uv[v] + step * direction[v];
+    const double trial_value = MapEnergy(energy, triangles, shapes, trial);
+    if (trial_value < value && trial_value <= value + kArmijo * step * slope) {
+      uv.swap(trial);
+      value = trial_value;
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace dcharts

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "planar/chart_mesh.h"
+#include "planar/complex_plane.h"
+#include "planar/stretch_energy.h"
+
+namespace dcharts {
+
+/// Energy of the whole map; +infinity when a triangle has no positive area.
+double MapEnergy(const StretchEnergy& energy, const Triangles& triangles, const RestShapes& shapes,
+                 const PlanePoints& uv);
+
+/// The smallest t > 0 at which a triangle loses its area on the way from `uv` to uv + t direction
+/// [Smith and Schaefer 2015]; +infinity when none does. All areas in `uv` must be positive.
+double FirstFlip(const Triangles& triangles, const PlanePoints& uv, const PlanePoints& direction);
+
+/// Moves `uv` along `direction`, at most one step and 0.9 of the way to the first flip, halved until the
+/// energy falls enough (Armijo). `slope` is the energy's derivative along the direction (< 0), `value` its
+/// value, replaced by the new one. False, and nothing moved, when it falls nowhere.
+bool SearchLine(const StretchEnergy& energy, const Triangles& triangles, const RestShapes& shapes,
+                const PlanePoints& direction, double slope, PlanePoints& uv, double& value);
+
+}  // namespace dcharts

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planar/rest_shapes.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace dcharts {
+namespace {
+
+constexpr double kThin = 1e-4;            // height / longest edge below which a small triangle is a sliver
+constexpr double kHopelesslyThin = 1e-9;  // below which any triangle is one: its height is rounding noise
+constexpr double kTiny = 1e-4;            // longest edge / sqrt(mean area) below which a triangle is a sliver
+constexpr double kSmall = 1e-2;           // area / mean area up to which a thin triangle counts as a sliver:
+                                          // a rod of long thin triangles has real shapes to keep
+constexpr double kSliverWeight = 1e-3;    // of the mean weight
+
+}  // namespace
+
+RestShape ShapeFromCorners(const Complex& r0, const Complex& r1, const Complex& r2) {
+  RestShape shape;
+  const Complex e1 = r1 - r0, e2 = r2 - r0;
+  shape.twice_area = Cross(e1, e2);
+  // The gradients of the hat functions are the opposite edges turned by 90 degrees over twice the area.
+  const double scale = 0.5 / shape.twice_area;
+  shape.a1 = {e2.imag() * scale, e2.real() * scale};
+  shape.a2 = {-e1.imag() * scale, -e1.real() * scale};
+  return shape;
+}
+
+RestShapes RestShapesOf(const ChartMesh& chart) {
+  const Eigen::Index count = chart.triangles.rows();
+  const double mean_area = 1.0 / static_cast<double>(count);
+  const double smallest_edge = kTiny * std::sqrt(mean_area);
+  RestShapes shapes(static_cast<std::size_t>(count));
+  for (Eigen::Index t = 0; t < count; ++t) {
+    Eigen::Vector3d corner[3];
+    for (int k = 0; k < 3; ++k) corner[k] = chart.positions.row(chart.triangles(t, k)).transpose();
+    int base = 0;  // the longest edge runs from corner `base` to the next
+    double longest = -1;
+    for (int k = 0; k < 3; ++k) {
+      const double length = (corner[(k + 1) % 3] - corner[k]).norm();
+      if (length > longest) longest = length, base = k;
+    }
+    const Eigen::Vector3d along = corner[(base + 1) % 3] - corner[base];
+    const Eigen::Vector3d side = corner[(base + 2) % 3] - corner[base];
+    const double twice_area = along.cross(side).norm();
+    double foot = 0.5 * smallest_edge, height = smallest_edge;
+    bool sliver = true;
+    if (longest > 0) {
+      foot = along.dot(side) / longest;
+      height = twice_area / longest;
+      const bool tiny = longest < smallest_edge;
+      const bool thin = height < kThin * longest && 0.5 * twice_area < kSmall * mean_area;
+      sliver = tiny || thin || height < kHopelesslyThin * longest;
+      if (tiny) {
+        const double grow = smallest_edge / longest;
+        foot *= grow;
+        height *= grow;
+        longest = smallest_edge;
+      }
+      if (sliver) height = std::max(height, kThin * longest);
+    } else {
+      longest = smallest_edge;
+    }
+    Complex r[3];
+    r[base] = 0;
+    r[(base + 1) % 3] = longest;
+    r[(base + 2) % 3] = {foot, height};
+    RestShape& shape = shapes[static_cast<std::size_t>(t)];
+    shape = ShapeFromCorners(r[0], r[1], r[2]);
+    shape.sliver = sliver;
+    shape.weight = sliver ? kSliverWeight * mean_area : 0.5 * twice_area;
+  }
+  return shapes;
+}
+
+void RelaxSlivers(const Triangles& triangles, const PlanePoints& uv, RestShapes& shapes) {
+  for (std::size_t t = 0; t < shapes.size(); ++t) {
+    if (!shapes[t].sliver) continue;
+    const auto corner = [&](int k) {
+      return uv[static_cast<std::size_t>(triangles(static_cast<Eigen::Index>(t), k))];
+    };
+    RestShape relaxed = ShapeFromCorners(corner(0), corner(1), corner(2));
+    relaxed.weight = shapes[t].weight;
+    relaxed.sliver = true;
+    shapes[t] = relaxed;
+  }
+}
+
+}  // namespace dcharts
