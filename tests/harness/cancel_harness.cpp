@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Cancels every filter of a plugin at every callback and checks that the document keeps every byte.
+/// usage: cancel_harness PLUGIN_FILE
+/// Prints a line per filter; exit code 0 when all is well, 1 with the reasons otherwise.
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include <QCoreApplication>
+
+#include "host_api.h"
+#include "snapshot.h"
+#include "test_mesh.h"
+
+namespace harness {
+namespace {
+
+// vcg's callback is a plain function, so its state is global.
+int g_calls = 0;
+int g_cancel_at = 0;  // 0 = never
+
+bool Callback(const int /*percent*/, const char* /*text*/) { return ++g_calls != g_cancel_at; }
+
+/// `seam_layer` turns that parameter on where the filter has it.
+RichParameterList ParametersOf(const Plugin& plugin, QAction* filter, const MeshDocument& document,
+                               bool seam_layer) {
+  RichParameterList parameters = plugin.Parameters(filter, document);
+  if (seam_layer && parameters.hasParameter("seam_layer")) parameters.setValue("seam_layer", BoolValue(true));
+  return parameters;
+}
+
+/// Runs one filter on the document, cancelled at the first, second, ... callback, until it finishes. Returns
+/// the reason of a failure, or an empty string with the filter's result left in the document.
+std::string CancelEverywhere(Plugin& plugin, QAction* filter, bool seam_layer, MeshDocument& document) {
+  const RichParameterList parameters = ParametersOf(plugin, filter, document, seam_layer);
+  const Snapshot before = TakeSnapshot(document);
+  for (g_cancel_at = 1;; ++g_cancel_at) {
+    g_calls = 0;
+    const Outcome outcome = plugin.Apply(filter, parameters, document, &Callback);
+    const std::string where = "cancelled at callback " + std::to_string(g_cancel_at) + ": ";
+    if (outcome.finished) {
+      if (g_calls >= g_cancel_at) return where + "the filter went on and finished";
+      if (g_cancel_at == 1) return "the filter never calls back";
+      return "";
+    }
+    if (g_calls < g_cancel_at) return "the filter failed: " + outcome.message;
+    if (g_calls > g_cancel_at) return where + "the filter called back again";
+    if (outcome.message.empty()) return where + "no message for the user";
+    const std::string difference = Difference(before, TakeSnapshot(document));
+    if (!difference.empty()) return where + "changed: " + difference;
+  }
+}
+
+/// Positions, faces, normals, selection and the user's attributes stay even when a filter finishes. The names
+/// are those of the snapshot.
+std::string ChangeOfUsersOwn(const Snapshot& before, const Snapshot& after) {
+  for (const char* part :
+       {"current layer", "layer 0: vertex positions", "layer 0: vertex normals", "layer 0: vertex colors",
+        "layer 0: vertex quality", "layer 0: vertex attribute of the user", "layer 0: faces",
+        "layer 0: face attribute of the user", "layer 0: face normals", "layer 0: selection counts",
+        "layer 0: element counts", "layer 0: label", "layer 0: bounding box", "layer 0: transform"}) {
+    if (before.at(part) != after.at(part)) return std::string("finished, but changed: ") + part;
+  }
+  return "";
+}
+
+/// All filters in the plugin's order, each on what the ones before left: the stages get charts and seams to
+/// read.
+int RunAll(Plugin& plugin, bool seam_layer) {
+  MeshDocument document;
+  AddTestMesh(document);
+  int failures = 0;
+  for (QAction* filter : plugin.Filters()) {
+    const Snapshot before = TakeSnapshot(document);
+    std::string problem = CancelEverywhere(plugin, filter, seam_layer, document);
+    if (problem.empty()) problem = ChangeOfUsersOwn(before, TakeSnapshot(document));
+    failures += problem.empty() ? 0 : 1;
+    std::printf("%s %s%s: %s\n", problem.empty() ? "ok  " : "FAIL", qUtf8Printable(filter->text()),
+                seam_layer ? " with seam_layer" : "",
+                problem.empty() ? (std::to_string(g_cancel_at - 1) + " callbacks").c_str() : problem.c_str());
+  }
+  return failures;
+}
+
+}  // namespace
+}  // namespace harness
+
+int main(int argc, char** argv) {
+  QCoreApplication application(argc, argv);
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: cancel_harness PLUGIN_FILE\n");
+    return 2;
+  }
+  try {
+    harness::Plugin plugin(QString::fromLocal8Bit(argv[1]));
+    const int failures = harness::RunAll(plugin, false) + harness::RunAll(plugin, true);
+    return failures == 0 ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::printf("FAIL %s\n", error.what());
+    return 1;
+  }
+}

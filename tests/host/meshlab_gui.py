@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Drives a MeshLab GUI by keyboard: opens a mesh, applies filters by name, looks at the 3D view."""
+import re
+import subprocess
+import tempfile
+import threading
+import time
+
+import numpy as np
+
+
+class MeshlabGui:
+    """A running MeshLab on an XSession. What it writes to stderr (its log among it) is in `output`."""
+
+    def __init__(self, session, command, mesh, env=None, seconds=90):
+        self.session = session
+        self.home = tempfile.TemporaryDirectory(prefix='dcharts-home-')  # keeps the user's own settings out
+        own_env = {'HOME': self.home.name, 'XDG_RUNTIME_DIR': self.home.name}
+        self.process = subprocess.Popen([*map(str, command), str(mesh)], env={**session.env, **own_env, **(env or {})},
+                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors='replace')
+        self.lines = []
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+        self.wait_for_output('All files opened', seconds)
+
+    def _read(self):
+        for line in self.process.stdout:
+            self.lines.append(line.rstrip('\n'))
+
+    @property
+    def output(self):
+        return '\n'.join(self.lines)
+
+    def wait_for_output(self, text, seconds=120):
+        """Waits for a text on MeshLab's stdout or stderr; `text` is a regular expression."""
+        end = time.monotonic() + seconds
+        while not re.search(text, self.output):
+            if self.process.poll() is not None:
+                self._reader.join(5)
+                raise RuntimeError(f'MeshLab ended ({self.process.returncode}) before "{text}":\n{self.output[-2000:]}')
+            if time.monotonic() > end:
+                raise TimeoutError(f'no "{text}" in {seconds} s:\n{self.output[-2000:]}')
+            time.sleep(0.1)
+
+    def main_window(self):
+        ids = self.session.xdotool('search', '--all', '--onlyvisible', '--pid', self.process.pid, '--name', '^MeshLab')
+        return ids.split()[-1]
+
+    def open_filter(self, name):
+        """Opens the filter's dialog by MeshLab's search box; returns its window."""
+        self.session.xdotool('windowactivate', '--sync', self.main_window())
+        self.session.keys('ctrl+f')
+        time.sleep(0.5)
+        self.session.write(name)
+        time.sleep(1)
+        self.session.keys('Down', 'Return')
+        return self.session.wait_for_window(name)
+
+    def apply(self, name, seconds=240):
+        """Applies a filter with its default parameters and waits until MeshLab says it is done."""
+        window = self.open_filter(name)
+        self.session.xdotool('windowactivate', '--sync', window)
+        time.sleep(0.3)
+        self.session.keys('space')
+        self.wait_for_output(f'Applied filter:? {re.escape(name)} in', seconds)
+        time.sleep(1)
+
+    def colors(self):
+        """Number of distinct hues that cover part of the screen: saturated pixels, hue in 5-degree steps, each step of
+        at least 100 pixels. MeshLab's own blue and violet backdrop counts too: compare with before the filter."""
+        rgb = self.session.screen().reshape(-1, 3).astype(int)
+        high, low = rgb.max(1), rgb.min(1)
+        spread = high - low
+        strong = (spread > 60) & (high > 80)
+        r, g, b = rgb[strong].T
+        d = spread[strong]
+        m = high[strong]
+        hue = np.where(m == r, (g - b) / d % 6, np.where(m == g, (b - r) / d + 2, (r - g) / d + 4)) * 60
+        counts = np.bincount((hue / 5).astype(int), minlength=72)
+        return int((counts >= 100).sum())
+
+    def has_line(self, pattern):
+        return any(re.search(pattern, line) for line in self.lines)
+
+    def close(self):
+        self.process.kill()
+        self.process.wait()
+        self._reader.join(5)
+        self.home.cleanup()
