@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# How everything is compiled. The target dcharts_options carries what is only for our own code, such as warnings.
+
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+# Templates of vcglib and Eigen are compiled into host and plugin alike, with other types and flags: keep ours to us.
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release, RelWithDebInfo" FORCE)
+endif()
+
+add_library(dcharts_options INTERFACE)
+if(MSVC)
+  target_compile_options(dcharts_options INTERFACE /W4 /permissive- /fp:precise)
+else()
+  # No fused multiply-add: the same input gives the same bytes whatever the processor has.
+  add_compile_options(-ffp-contract=off)
+  target_compile_options(dcharts_options INTERFACE -Wall -Wextra -Wshadow)
+endif()
+
+if(DCHARTS_SANITIZE)
+  add_compile_options(-fsanitize=${DCHARTS_SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${DCHARTS_SANITIZE})
+endif()

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_table.h"
+
+#include <initializer_list>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+
+namespace dcharts {
+
+namespace {
+
+const char* const kPaper =
+    "<br><br>See:<br>"
+    "<i>Dan Julius, Vladislav Kraevoy, Alla Sheffer</i><br>"
+    "<b>\"D-Charts: Quasi-Developable Mesh Segmentation\"</b><br>"
+    "Computer Graphics Forum (Eurographics 2005), volume 24, issue 3, pages 581-590";
+
+std::vector<ParamSpec> MakeParams() {
+  return {
+      // --- segmentation and hole filling
+      {"chart_count", "Initial charts",
+       "Number of seeds that charts are grown from. Charts are added and joined later, so the result may "
+       "have more or "
+       "fewer. A larger number gives smaller, flatter charts and longer seams. 0 lets the filter find the "
+       "number.",
+       &Params::chart_count, 0},
+      {"max_fitting_error", "Largest fitting error",
+       "How far a face may lean away from its chart's cone while the chart grows: the squared difference of "
+       "two "
+       "cosines, without unit. 0.2 is about 56 degrees for a plane and 26 for a cylinder. Larger values give "
+       "fewer "
+       "charts with more stretch.",
+       &Params::max_fitting_error, 0, 4, true},
+      {"fitting_weight", "Weight of fitting (alpha)",
+       "Exponent of the fitting error in the cost of adding a face to a chart, without unit. Larger values "
+       "give "
+       "flatter, more ragged charts; 0 ignores the fitting error in the cost.",
+       &Params::fitting_weight, 0, 10},
+      {"compactness_weight", "Weight of compactness (beta)",
+       "Exponent of the compactness in the cost of adding a face to a chart, without unit. Larger values "
+       "give rounder "
+       "charts and shorter seams; 0 ignores compactness.",
+       &Params::compactness_weight, 0, 10},
+      {"straightness_weight", "Weight of straight borders (gamma)",
+       "Exponent of the border length that a face adds in the cost of adding it to a chart, without unit. "
+       "Larger "
+       "values give smoother borders; 0 ignores border length.",
+       &Params::straightness_weight, 0, 10},
+      {"max_iterations", "Most iterations",
+       "Bound on the number of Lloyd iterations, which grow all charts anew from better seeds. A larger "
+       "bound only "
+       "matters where the iterations have not settled before.",
+       &Params::max_iterations, 1, 10000},
+      {"reassigned_percent", "Stop below reassigned faces (%)",
+       "The iterations stop when fewer faces than this have changed their chart, in percent of all faces. "
+       "Larger values "
+       "stop sooner; 0 goes on until nothing changes or the bound on the iterations is reached.",
+       &Params::reassigned_percent, 0, 100},
+      {"seed_candidates", "Seed candidates",
+       "A chart's new seed is the most central of this many of its best-fitting faces. Larger numbers move "
+       "seeds to "
+       "the chart's centre, smaller ones to its best-fitting face.",
+       &Params::seed_candidates, 1},
+      {"seed_percent", "Seed candidates (% of the chart)",
+       "The same count in percent of the chart's faces; the larger of the two counts is used. Keeps large "
+       "meshes from "
+       "many iterations. 0 uses the plain number alone.",
+       &Params::seed_percent, 0, 100},
+      {"small_hole_percent", "Small holes (% of the area)",
+       "A hole between charts up to this share of the surface area, in percent, is filled by growing its "
+       "neighbours "
+       "over it; a larger hole gets charts of its own. Larger values give fewer charts with more stretch; 0 "
+       "gives "
+       "every hole charts of its own.",
+       &Params::small_hole_percent, 0, 100},
+      // --- merging
+      {"merge_threshold", "Merge threshold (eta)",
+       "Two neighbouring charts are joined when the region along their border fits a cylinder with at most "
+       "this mean "
+       "fitting error, without unit. Larger values give fewer charts with more stretch; 0.00001 keeps "
+       "mechanical parts "
+       "strictly developable; 0 joins only across regions that fit exactly.",
+       &Params::merge_threshold, 0, 4},
+      // --- cuts
+      {"dart_fitting_error", "Fitting error that gets a dart",
+       "A dart, a cut that ends inside the chart, is made from the border to each region whose fitting error "
+       "is above "
+       "this, without unit. Larger values give fewer darts and more stretch; 0 aims at every face that does "
+       "not fit "
+       "exactly.",
+       &Params::dart_fitting_error, 0, 4},
+      {"max_dart_percent", "Longest dart (% of the chart's size)",
+       "A dart may be this long, in percent of its chart's size, which is the square root of its area. "
+       "Larger values "
+       "give longer seams and less stretch; 0 makes no darts.",
+       &Params::max_dart_percent, 0, 1000},
+      {"cut_to_disk", "Cut charts to disks",
+       "Also cut charts whose border has several loops, such as a ring, so that every chart has exactly one. "
+       "Otherwise "
+       "such a loop is cut only where the chart would not lie flat without it.",
+       &Params::cut_to_disk},
+      {"seam_layer", "Add a layer of seam lines",
+       "Add a layer with the edges along which the surface is cut, to look at. The mesh stays the current "
+       "layer.",
+       &Params::seam_layer},
+      // --- flattening and packing
+      {"texture_size", "Texture size (texels)",
+       "Side of the square texture for which charts are packed, in texels. Decides, with the padding, how "
+       "far charts "
+       "stay apart; texture coordinates are between 0 and 1 whatever it is.",
+       &Params::texture_size, 16, 65536},
+      {"padding", "Padding (texels)",
+       "Free texels between charts and along the texture's edge, so that filtering does not mix their "
+       "colours; at most "
+       "a quarter of the texture size. Larger values leave less room for the charts; 0 lets charts touch.",
+       &Params::padding, 0, 16384},
+      {"rotate", "Turn charts",
+       "Charts may be turned to pack them more tightly. Off keeps them as flattened.", &Params::rotate},
+  };
+}
+
+// The parameters of these names, in the order of AllParams().
+std::vector<const ParamSpec*> Pick(std::initializer_list<std::string_view> names) {
+  std::vector<const ParamSpec*> picked;
+  for (const ParamSpec& spec : AllParams())
+    for (std::string_view name : names)
+      if (name == spec.name) picked.push_back(&spec);
+  if (picked.size() != names.size())
+    throw std::logic_error("a filter names a parameter that is not in the table");
+  return picked;
+}
+
+std::vector<const ParamSpec*> PickAll() {
+  std::vector<const ParamSpec*> picked;
+  for (const ParamSpec& spec : AllParams()) picked.push_back(&spec);
+  return picked;
+}
+
+std::vector<FilterSpec> MakeFilters() {
+  const unsigned charts = kWritesQuality | kWritesColor;
+  const unsigned atlas = charts | kWritesTexcoords;
+  const unsigned texture = kMenuTexture;
+  const unsigned coloring = kMenuTexture | kMenuFaceColoring;
+  return {
+      {FilterId::kSegment, "D-Charts: Segment", "dcharts_segment",
+       "Groups the faces into charts that are nearly developable, that is, can be laid flat with little "
+       "stretch. Charts "
+       "grow from seeds, each around a cone that fits its normals, and grow again from better seeds until "
+       "they settle "
+       "(Lloyd iterations). Faces that fit no chart stay unassigned; D-Charts: Fill is the next step. "
+       "Writes the chart number to the face quality (0, 1, 2...; -1 is unassigned) and a colour per chart to "
+       "the face "
+       "colour.",
+       "Section 3.1", charts, coloring,
+       Pick({"chart_count", "max_fitting_error", "fitting_weight", "compactness_weight",
+             "straightness_weight", "max_iterations", "reassigned_percent", "seed_candidates",
+             "seed_percent"})},
+      {FilterId::kFill, "D-Charts: Fill", "dcharts_fill",
+       "Gives every face that is in no chart to one: small holes are grown over by the charts around them, "
+       "large ones "
+       "get charts of their own. Reads charts from the face quality, whoever wrote them: a value below 0 or "
+       "more than "
+       "0.01 off a whole number is unassigned. Writes face quality and face colour.",
+       "Section 3.2", charts, coloring,
+       Pick({"max_fitting_error", "fitting_weight", "compactness_weight", "straightness_weight",
+             "small_hole_percent"})},
+      {FilterId::kStraighten, "D-Charts: Straighten", "dcharts_straighten",
+       "Straightens the borders between charts where faces fit both sides: shortest paths between the points "
+       "where "
+       "charts meet, and minimal cuts for borders that are closed circles. Reads charts from the face "
+       "quality. Writes "
+       "face quality and face colour.",
+       "Section 3.3", charts, coloring, Pick({"max_fitting_error"})},
+      {FilterId::kMerge, "D-Charts: Merge", "dcharts_merge",
+       "Joins neighbouring charts that can be laid flat together: those whose faces along the common border "
+       "fit one "
+       "cylinder. Reads charts from the face quality. Writes face quality and face colour.",
+       "Section 3.3", charts, coloring, Pick({"merge_threshold"})},
+      {FilterId::kCut, "D-Charts: Cut", "dcharts_cut",
+       "Cuts charts so that they can lie flat: handles and closed surfaces are opened, and darts run from "
+       "the border to "
+       "regions that fit badly. Reads charts from the face quality. Writes the seams as the per-face "
+       "attribute "
+       "dcharts_seams and as provisional texture coordinates that are discontinuous exactly at the seams; "
+       "D-Charts: "
+       "Parameterize is the next step. Vertices and faces stay as they are.",
+       "Section 3.3", atlas, texture,
+       Pick({"dart_fitting_error", "max_dart_percent", "cut_to_disk", "seam_layer"})},
+      {FilterId::kParameterize, "D-Charts: Parameterize", "dcharts_parameterize",
+       "Flattens each chart with as little stretch as possible and without flipped faces, cuts away what "
+       "would overlap, "
+       "and packs all charts into the unit square. Reads charts from the face quality, and seams from the "
+       "attribute or "
+       "the texture coordinates that D-Charts: Cut left; without them it makes the cuts it needs. Writes "
+       "texture "
+       "coordinates per wedge, texture index 0, and charts again where one had to be split. The texture "
+       "itself is up to "
+       "other filters.",
+       "Sections 2, 4 and 5", atlas, texture, Pick({"texture_size", "padding", "rotate"})},
+      {FilterId::kTextureAtlas, "D-Charts: Texture Atlas", "dcharts_texture_atlas",
+       "Makes a texture atlas: segments the surface into nearly developable charts, fills, straightens, "
+       "merges and cuts "
+       "them, flattens them with little stretch, no flipped face and no overlap, and packs them into the "
+       "unit square. "
+       "The same as the six D-Charts stage filters one after the other. Writes chart numbers to the face "
+       "quality, a "
+       "colour per chart to the face colour, and texture coordinates per wedge with texture index 0. "
+       "Vertices and "
+       "faces stay as they are.",
+       "Sections 2 to 5", atlas, coloring, PickAll()},
+      {FilterId::kMeasure,
+       "D-Charts: Measure",
+       "dcharts_measure",
+       "Measures the charts and texture coordinates that the mesh has, whoever made them: number of charts, "
+       "stretch (L2 "
+       "and Linf, 1 is best), shear, length of the seams over the square root of the area, flipped and "
+       "overlapping "
+       "faces, and how well the texture is used. With texture coordinates a chart is a set of faces joined "
+       "by equal "
+       "ones; without them charts are read from the face quality, and only they are measured. Has no "
+       "parameters and "
+       "changes nothing; see the log.",
+       "Section 5",
+       kWritesNothing,
+       kMenuTexture | kMenuMeasure,
+       {}},
+  };
+}
+
+}  // namespace
+
+const std::vector<ParamSpec>& AllParams() {
+  static const std::vector<ParamSpec> params = MakeParams();
+  return params;
+}
+
+const std::vector<FilterSpec>& AllFilters() {
+  static const std::vector<FilterSpec> filters = MakeFilters();
+  return filters;
+}
+
+const FilterSpec& GetFilter(FilterId id) {
+  for (const FilterSpec& spec : AllFilters())
+    if (spec.id == id) return spec;
+  throw std::logic_error("unknown filter id");
+}
+
+double ValueOf(const ParamSpec& spec, const Params& params) {
+  return std::visit([&](auto field) { return static_cast<double>(params.*field); }, spec.field);
+}
+
+std::string RangeText(const ParamSpec& spec) {
+  if (std::holds_alternative<bool Params::*>(spec.field)) return "true or false";
+  const bool bounded = spec.max < std::numeric_limits<double>::infinity();
+  if (spec.min_exclusive)
+    return "above " + NumberText(spec.min) + (bounded ? " and at most " + NumberText(spec.max) : "");
+  if (bounded) return "between " + NumberText(spec.min) + " and " + NumberText(spec.max);
+  return NumberText(spec.min) + " or more";
+}
+
+std::string TooltipText(const ParamSpec& spec) {
+  std::string text = spec.tooltip;
+  if (std::holds_alternative<bool Params::*>(spec.field))
+    return text + " Default: " + (ValueOf(spec, Params()) != 0 ? "on." : "off.");
+  return text + " Range: " + RangeText(spec) + ". Default: " + NumberText(ValueOf(spec, Params())) + ".";
+}
+
+std::string HelpText(const FilterSpec& spec) {
+  std::string text = spec.summary;
+  if (!spec.params.empty()) {
+    text += "<br><ul>";
+    for (const ParamSpec* param : spec.params)
+      text += std::string("<li><b>") + param->name + "</b>: " + TooltipText(*param) + "</li>";
+    text += "</ul>";
+  }
+  return text + kPaper + " (" + spec.reference + ").";
+}
+
+std::string NumberText(double value) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(10);
+  out << value;
+  return out.str();
+}
+
+}  // namespace dcharts

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What the adapters have in common: parameters, progress, and one run of a filter on a host's document.
+/// Templates over the host's types, whose headers come first.
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include <QString>
+
+#include "mesh_exchange.h"
+#include "runner.h"
+
+namespace dcharts {
+
+/// Adds the filter's parameters with their defaults to the host's list.
+template <class List>
+void AddParams(const FilterSpec& filter, List& list) {
+  const Params defaults;
+  for (const ParamSpec* spec : filter.params) {
+    const QString name(spec->name), label(spec->label), tooltip(QString::fromStdString(TooltipText(*spec)));
+    if (const auto* field = std::get_if<bool Params::*>(&spec->field))
+      list.addParam(RichBool(name, defaults.**field, label, tooltip));
+    else if (const auto* count = std::get_if<int Params::*>(&spec->field))
+      list.addParam(RichInt(name, defaults.**count, label, tooltip));
+    else if (const auto* number = std::get_if<double Params::*>(&spec->field))
+      list.addParam(RichFloat(name, static_cast<float>(defaults.**number), label, tooltip));
+  }
+}
+
+/// The values the user gave, everything else at its default.
+template <class List>
+Params ReadParams(const FilterSpec& filter, const List& list) {
+  Params params;
+  for (const ParamSpec* spec : filter.params) {
+    const QString name(spec->name);
+    if (const auto* field = std::get_if<bool Params::*>(&spec->field))
+      params.** field = list.getBool(name);
+    else if (const auto* count = std::get_if<int Params::*>(&spec->field))
+      params.** count = list.getInt(name);
+    else if (const auto* number = std::get_if<double Params::*>(&spec->field))
+      params.** number = FromHostFloat(static_cast<float>(list.getFloat(name)));
+  }
+  return params;
+}
+
+/// The bits of the host's mask for what the filter may write. Nothing about connectivity: that would make the
+/// GUI switch the face colour off.
+template <class Model>
+int PostConditionMask(const FilterSpec& filter) {
+  int mask = Model::MM_NONE;
+  if (filter.writes & kWritesQuality) mask |= Model::MM_FACEQUALITY;
+  if (filter.writes & kWritesColor) mask |= Model::MM_FACECOLOR;
+  if (filter.writes & kWritesTexcoords) mask |= Model::MM_WEDGTEXCOORD;
+  return mask;
+}
+
+/// The menus that list the filter, as bits of the plugin interface's FilterClass.
+template <class Plugin>
+typename Plugin::FilterClass ClassOf(const FilterSpec& filter) {
+  int bits = 0;
+  if (filter.menus & kMenuTexture) bits |= Plugin::Texture;
+  if (filter.menus & kMenuFaceColoring) bits |= Plugin::FaceColoring;
+  if (filter.menus & kMenuMeasure) bits |= Plugin::Measure;
+  return static_cast<typename Plugin::FilterClass>(bits);
+}
+
+/// Runs the filter on the document's current mesh and writes the result at the end; a new layer does not
+/// become the current one. Host::UpdateBox(model) finishes a new layer, Host::RemoveLayer(document, model)
+/// removes it. Throws Error and Cancelled, nothing else; then the document is unchanged.
+template <class Host, class Document, class List>
+Report RunOnDocument(const FilterSpec& filter, const List& list, Document& document,
+                     const Progress::Callback& callback, const Progress::Logger& log) {
+  return WithSentences([&] {
+    Progress progress(callback, log);
+    auto* model = document.mm();
+    SurfaceData surface;
+    if (model != nullptr) surface = ReadSurface(model->cm);
+    const SurfaceChange change =
+        RunFilter(filter, model != nullptr ? &surface : nullptr, ReadParams(filter, list), progress);
+
+    SurfaceWriter writer(*model, change);
+    if (!change.seam_lines.empty()) {
+      auto* layer = document.addNewMesh(QString(), QString("D-Charts seams"), false);
+      try {
+        FillSeamLayer(change.seam_lines, layer->cm);
+        layer->cm.Tr = model->cm.Tr;
+        Host::UpdateBox(*layer);
+      } catch (...) {
+        Host::RemoveLayer(document, *layer);
+        throw;
+      }
+    }
+    writer.Commit();
+    for (const std::string& line : LogLines(change.report)) log(line);
+    return change.report;
+  });
+}
+
+}  // namespace dcharts
