@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Set-up shared by demo.sh and test.sh; to be sourced by bash, with `set -euo pipefail` in force. Each function looks first
+# Set-up shared by the scripts here; to be sourced by bash, with `set -euo pipefail` in force. Each function looks first
 # and does nothing when all is there: a second run is quick and needs no network.
 #   ensure_apt_packages PACKAGE...    Debian packages; needs root or sudo when one is missing
 #   ensure_venv REQUIREMENT...        Python packages in the repository's own .venv
 #   ensure_plugin                     the Python package pymeshlab-dcharts in .venv, built from this checkout
+#   ensure_build [OPTION...]          build/ configured with these options for cmake
+#   build_targets TARGET...           these targets built there
 
 repo=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 venv=$repo/.venv
 python=$venv/bin/python
+build=$repo/build
 
 # What building the plugin and running it in pymeshlab takes on a bare Debian 12.
 build_packages=(build-essential cmake ninja-build python3-venv python3-dev ca-certificates xz-utils dpkg-dev
@@ -116,4 +119,23 @@ ensure_plugin() {
   fi
   "$python" -c 'import pymeshlab_dcharts' || fail "The plugin was built but pymeshlab could not load it."
   printf '%s\n' "$hash" >"$stamp"
+}
+
+ensure_build() {
+  local log=$build/configure.log
+  mkdir -p "$build"
+  if ! cmake -S "$repo" -B "$build" -G Ninja "$@" >"$log" 2>&1; then
+    tail -n 20 "$log" >&2
+    fail "cmake could not set up the build. The whole log is in $log"
+  fi
+  grep -A 3 'CMake Warning' "$log" >&2 || true
+}
+
+build_targets() {
+  local log=$build/build.log
+  say "Building: $*"
+  if ! cmake --build "$build" --target "$@" >"$log" 2>&1; then
+    grep -E -A 3 'error|FAILED' "$log" | head -n 30 >&2 || true
+    fail "The build failed. The whole log is in $log"
+  fi
 }
