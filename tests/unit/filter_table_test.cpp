@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_table.h"
+
+#include <cmath>
+#include <cstddef>
+#include <regex>
+#include <set>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace dcharts {
+namespace {
+
+// The number of fields of an aggregate: the largest number of initializers that it takes.
+struct Anything {
+  template <class T>
+  operator T() const;
+};
+template <class T, class Indices, class = void>
+struct TakesInitializers : std::false_type {};
+template <class T, std::size_t... I>
+struct TakesInitializers<T, std::index_sequence<I...>, std::void_t<decltype(T{(void(I), Anything())...})>>
+    : std::true_type {};
+template <class T, std::size_t N = 64>
+constexpr std::size_t FieldCount() {
+  if constexpr (TakesInitializers<T, std::make_index_sequence<N>>::value)
+    return N;
+  else
+    return FieldCount<T, N - 1>();
+}
+
+std::vector<std::string> NamesOf(FilterId id) {
+  std::vector<std::string> names;
+  for (const ParamSpec* param : GetFilter(id).params) names.push_back(param->name);
+  return names;
+}
+
+TEST(FilterTable, HoldsEveryFieldOfParamsOnce) {
+  EXPECT_EQ(AllParams().size(), FieldCount<Params>());
+  for (const ParamSpec& a : AllParams())
+    for (const ParamSpec& b : AllParams()) {
+      if (&a == &b) continue;
+      EXPECT_STRNE(a.name, b.name);
+      EXPECT_NE(a.field, b.field) << a.name << " and " << b.name;
+    }
+}
+
+TEST(FilterTable, DefaultsAreInRange) {
+  for (const ParamSpec& spec : AllParams()) {
+    const double value = ValueOf(spec, Params());
+    if (spec.min_exclusive)
+      EXPECT_GT(value, spec.min) << spec.name;
+    else
+      EXPECT_GE(value, spec.min) << spec.name;
+    EXPECT_LE(value, spec.max) << spec.name;
+  }
+  EXPECT_LE(Params().padding, Params().texture_size / 4);
+}
+
+TEST(FilterTable, NamesAreSnakeCase) {
+  const std::regex snake_case("[a-z]+(_[a-z]+)*");
+  for (const ParamSpec& spec : AllParams()) EXPECT_TRUE(std::regex_match(spec.name, snake_case)) << spec.name;
+  for (const FilterSpec& filter : AllFilters()) {
+    EXPECT_TRUE(std::regex_match(filter.python_name, snake_case)) << filter.python_name;
+    EXPECT_EQ(std::string(filter.name).rfind("D-Charts: ", 0), 0u) << filter.name;
+  }
+}
+
+TEST(FilterTable, FiltersHaveDifferentNames) {
+  std::set<std::string> names, python_names;
+  for (const FilterSpec& filter : AllFilters()) {
+    names.insert(filter.name);
+    python_names.insert(filter.python_name);
+    EXPECT_EQ(&GetFilter(filter.id), &filter);
+  }
+  EXPECT_EQ(names.size(), AllFilters().size());
+  EXPECT_EQ(python_names.size(), AllFilters().size());
+}
+
+TEST(FilterTable, HelpDocumentsEveryParameterAndThePaper) {
+  for (const FilterSpec& filter : AllFilters()) {
+    const std::string help = HelpText(filter);
+    for (const ParamSpec* param : filter.params) {
+      EXPECT_NE(help.find("<b>" + std::string(param->name) + "</b>: " + param->tooltip), std::string::npos)
+          << filter.name << ": " << param->name;
+      if (std::holds_alternative<bool Params::*>(param->field)) continue;
+      EXPECT_NE(help.find(RangeText(*param)), std::string::npos) << filter.name << ": " << param->name;
+    }
+    EXPECT_NE(help.find("<i>Dan Julius"), std::string::npos) << filter.name;
+    EXPECT_NE(help.find("Section"), std::string::npos) << filter.name;
+  }
+}
+
+TEST(FilterTable, TooltipsSayWhatZeroMeans) {
+  for (const ParamSpec& spec : AllParams()) {
+    if (std::holds_alternative<bool Params::*>(spec.field) || spec.min > 0 || spec.min_exclusive) continue;
+    EXPECT_TRUE(std::regex_search(spec.tooltip, std::regex("(^|[ ;.])0 "))) << spec.name;
+  }
+}
+
+TEST(FilterTable, TooltipsDiffer) {
+  std::set<std::string> tooltips;
+  for (const ParamSpec& spec : AllParams()) tooltips.insert(spec.tooltip);
+  EXPECT_EQ(tooltips.size(), AllParams().size());
+}
+
+TEST(FilterTable, TextureAtlasHasTheParametersOfItsStages) {
+  std::set<std::string> of_stages;
+  for (FilterId id : {FilterId::kSegment, FilterId::kFill, FilterId::kStraighten, FilterId::kMerge,
+                      FilterId::kCut, FilterId::kParameterize})
+    for (const std::string& name : NamesOf(id)) of_stages.insert(name);
+  const std::vector<std::string> of_atlas = NamesOf(FilterId::kTextureAtlas);
+  EXPECT_EQ(std::set<std::string>(of_atlas.begin(), of_atlas.end()), of_stages);
+  EXPECT_EQ(of_atlas.size(), of_stages.size());
+}
+
+TEST(FilterTable, MeasureHasNoParametersAndWritesNothing) {
+  EXPECT_TRUE(GetFilter(FilterId::kMeasure).params.empty());
+  EXPECT_EQ(GetFilter(FilterId::kMeasure).writes, unsigned{kWritesNothing});
+}
+
+TEST(FilterTable, RangesReadAsAPersonWritesThem) {
+  const auto range = [](const std::string& name) {
+    for (const ParamSpec& spec : AllParams())
+      if (name == spec.name) return RangeText(spec);
+    return std::string();
+  };
+  EXPECT_EQ(range("chart_count"), "0 or more");
+  EXPECT_EQ(range("max_fitting_error"), "above 0 and at most 4");
+  EXPECT_EQ(range("reassigned_percent"), "between 0 and 100");
+  EXPECT_EQ(range("rotate"), "true or false");
+}
+
+}  // namespace
+}  // namespace dcharts
