@@ -30,9 +30,24 @@ LinearMap MapOf(const RestShape& shape, const Complex& e1, const Complex& e2) {
 
 double Square(double x) { return x * x; }
 
-double Power31(double x) {
-  const double x2 = x * x, x4 = x2 * x2, x8 = x4 * x4, x16 = x8 * x8;
-  return x16 * x8 * x4 * x2 * x;
+// The tail of kSanderTail and its derivatives by x. A power of the energy above its minimum, not of the
+// energy itself: so it tells bad from good in nearly isometric charts as well.
+constexpr double kTailExponent = 6;
+constexpr double kTailWeight = 10;
+
+double Tail(double x, double reference) {
+  const double ratio = x / reference, cube = ratio * ratio * ratio;
+  return kTailWeight / kTailExponent * reference * cube * cube;
+}
+
+double TailFirst(double x, double reference) {
+  const double ratio = x / reference, square = ratio * ratio;
+  return kTailWeight * square * square * ratio;
+}
+
+double TailSecond(double x, double reference) {
+  const double ratio = x / reference, square = ratio * ratio;
+  return kTailWeight * (kTailExponent - 1) * square * square / reference;
 }
 
 // Both energies as sums of squares: no digits are lost near the isometry.
@@ -69,8 +84,8 @@ ValueDerivatives DerivativesOf(const StretchEnergy& energy, bool sliver, double 
   v.d12 = 0.5;
   v.flip = 0.5 * (shared - 1);
   if (energy.kind == StretchEnergy::Kind::kSander || sliver) return v;
-  const double ratio = (Sander(s1, s2) + 1) / energy.reference;
-  const double first = Power31(ratio) / energy.reference, second = 31 * first / (ratio * energy.reference);
+  const double x = Sander(s1, s2);
+  const double first = 1 + TailFirst(x, energy.reference), second = TailSecond(x, energy.reference);
   ValueDerivatives w;
   w.d1 = first * v.d1;
   w.d2 = first * v.d2;
@@ -113,9 +128,8 @@ double TriangleEnergy(const StretchEnergy& energy, const RestShape& shape, const
     value = SymmetricDirichlet(s1, s2);
   } else {
     value = Sander(s1, s2);
-    if (energy.kind == StretchEnergy::Kind::kSanderPower && !shape.sliver) {
-      const double ratio = (value + 1) / energy.reference;
-      value = Power31(ratio) * ratio / 32;
+    if (energy.kind == StretchEnergy::Kind::kSanderTail && !shape.sliver) {
+      value += Tail(value, energy.reference);
     }
   }
   return std::isfinite(value) ? value : infinity;

@@ -13,11 +13,11 @@ struct StretchEnergy {
     kSymmetricDirichlet,  ///< (s1^2 + s2^2 + s1^-2 + s2^-2) / 4 - 1
     kSander,              ///< (s1^-2 + s2^-2) / 4 + s1 s2 / 2 - 1: least where the L2 stretch of
                           ///< [SSGH01] is, with the scale left free
-    kSanderPower          ///< ((kSander + 1) / reference)^32 / 32; plain kSander in slivers, which would
-                          ///< otherwise govern it
+    kSanderTail           ///< x + 10 / 6 reference (x / reference)^6 where x is kSander: also lowers the
+                          ///< worst triangles; plain kSander in slivers, which would otherwise govern it
   };
   Kind kind = Kind::kSymmetricDirichlet;
-  double reference = 1;  ///< of kSanderPower: keeps the powers in range
+  double reference = 1;  ///< of kSanderTail: about the largest kSander in the map, > 0
 };
 
 /// The energy of a triangle without its weight, +infinity unless its UV area is positive.
