@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Puts the plugin where the installed MeshLab (GUI and meshlabserver) finds it, and says where. Builds it first
-# when that was not done yet.
+# Builds the plugin (when that was not done yet), puts it where the installed MeshLab (GUI and meshlabserver) finds
+# it, and says where.
 # usage: install-meshlab.sh [--uninstall]
 # MeshLab 2020.09 (Debian 12, Ubuntu 22.04) has one plugin folder for all users: root or sudo is needed.
 # MeshLab 2025.07 has one in the home folder as well, which is taken; it is found when that MeshLab was started once
@@ -76,7 +76,7 @@ put() {
 # Builds the plugin of target $1 and prints where it is.
 build_plugin() {
   local file=$build/filter_dcharts/lib$1.so
-  if [ $action = install ] && [ ! -e "$file" ]; then
+  if [ $action = install ]; then
     ensure_apt_packages "${build_packages[@]}"
     [ -e "$build/CMakeCache.txt" ] || ensure_build -DDCHARTS_BUILD_TESTS=OFF
     build_targets "$1"

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import os
+import pathlib
+import sys
+
+import pytest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+
+from cases import ROOT  # noqa: E402
+from hosts import Meshlab2020, NotHere  # noqa: E402
+from xsession import XSession, missing_tools  # noqa: E402
+
+
+@pytest.fixture(scope='session')
+def screen():
+    """An XSession for all tests."""
+    missing = missing_tools()
+    if missing:
+        pytest.skip(f'not installed: {", ".join(missing)} (Debian 12: apt-get install xvfb openbox xdotool)')
+    session = XSession()
+    yield session
+    session.close()
+
+
+@pytest.fixture(scope='session')
+def meshlab_2020(tmp_path_factory):
+    """A MeshLab 2020.09 with the plugin in it."""
+    try:
+        return Meshlab2020(tmp_path_factory.mktemp('meshlab-2020'))
+    except NotHere as reason:
+        pytest.skip(str(reason))
+
+
+@pytest.fixture(scope='session')
+def screenshots(tmp_path_factory):
+    """Where screenshots go: $DCHARTS_SCREENSHOTS, else a folder of pytest's."""
+    folder = os.environ.get('DCHARTS_SCREENSHOTS')
+    return pathlib.Path(folder) if folder else tmp_path_factory.mktemp('screenshots')
+
+
+@pytest.fixture(scope='session')
+def plush():
+    return ROOT / 'meshes' / 'plush.ply'

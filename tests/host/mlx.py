@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""MeshLab's filter scripts."""
+import xml.etree.ElementTree as ElementTree
+
+from cases import FILTERS
+
+_READ = {'RichInt': int, 'RichFloat': float, 'RichBool': lambda text: text == 'true'}
+
+
+def read_script(path):
+    """The script's filters in order, as (name in Python, {parameter: value})."""
+    steps = []
+    for node in ElementTree.parse(path).getroot().iter('filter'):
+        values = {p.get('name'): _READ[p.get('type')](p.get('value')) for p in node.iter('Param')}
+        steps.append((FILTERS[node.get('name')][0], values))
+    return steps
+
+
+def write_script(path, name, example, **changes):
+    """Writes a script of one filter: the step `name` of the script `example` with some values changed."""
+    tree = ElementTree.parse(example)
+    root = tree.getroot()
+    for node in list(root):
+        if node.get('name') != name:
+            root.remove(node)
+    for parameter in root.iter('Param'):
+        if parameter.get('name') in changes:
+            value = changes.pop(parameter.get('name'))
+            parameter.set('value', str(value).lower() if isinstance(value, bool) else str(value))
+    assert len(root) == 1 and not changes, f'{name} {changes} is not in {example}'
+    path.write_text('<!DOCTYPE FilterScript>\n' + ElementTree.tostring(root, encoding='unicode'))
+    return path

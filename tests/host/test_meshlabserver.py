@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""meshlabserver of MeshLab 2020.09: the shipped scripts, wrong input, the log, and the same charts as in pymeshlab."""
+import re
+
+import numpy as np
+import pytest
+
+from atlas_check import ply_layers
+from cases import FILTERS, OUT_OF_RANGE, REFUSED_MESHES, ROOT, is_sentence, shipped_meshes, write_ply
+from mlx import read_script, write_script
+
+pymeshlab = pytest.importorskip('pymeshlab')
+pytest.importorskip('pymeshlab_dcharts')
+
+EXAMPLES = ROOT / 'examples'
+SCRIPTS = ('texture_atlas.mlx', 'stages.mlx', 'paper.mlx')
+MESHES = shipped_meshes()
+REFUSED = 255  # meshlabserver's exit code for a filter that says no; 134 would be an abort
+
+
+def example_of(name):
+    """The shipped script that has this filter."""
+    return EXAMPLES / ('texture_atlas.mlx' if name.endswith('Texture Atlas') else 'stages.mlx')
+
+
+def one_filter(folder, name, **changes):
+    path = folder / 'one.mlx'
+    if not FILTERS[name][1]:
+        path.write_text(f'<!DOCTYPE FilterScript>\n<FilterScript><filter name="{name}"/></FilterScript>')
+        return path
+    return write_script(path, name, example_of(name), **changes)
+
+
+@pytest.fixture
+def server(meshlab_2020, screen, tmp_path):
+    """A function that runs meshlabserver and returns (run, output file or None)."""
+
+    def run(script, mesh=None):
+        out = tmp_path / 'out.ply'
+        out.unlink(missing_ok=True)
+        arguments = (['-i', mesh] if mesh else []) + ['-o', out, '-m', 'fq', 'fc', 'wt', '-s', script]
+        result = meshlab_2020.server(screen, *arguments, folder=tmp_path)
+        return result, (out if out.exists() else None)
+
+    return run
+
+
+def test_plugin_is_found(meshlab_2020):
+    assert meshlab_2020.installed.returncode == 0, meshlab_2020.installed.stderr
+    assert (meshlab_2020.plugins / 'libfilter_dcharts_2020.so').exists()
+
+
+@pytest.mark.parametrize('script', SCRIPTS)
+@pytest.mark.parametrize('mesh', MESHES, ids=lambda path: path.stem)
+def test_shipped_script(server, script, mesh):
+    run, out = server(EXAMPLES / script, mesh)
+    assert run.returncode == 0, run.stdout[-2000:]
+    assert out is not None, run.stdout[-2000:]
+    there = ply_layers(out)
+    here = pymeshlab.MeshSet()
+    here.load_new_mesh(str(mesh))
+    for name, values in read_script(EXAMPLES / script):
+        here.apply_filter(name, **values)
+    expected = here.current_mesh()
+    assert np.array_equal(there.face_vertices, expected.face_matrix())
+    assert np.array_equal(there.quality, expected.face_scalar_array()), 'other charts than in pymeshlab'
+    assert there.texcoords.min() >= 0 and there.texcoords.max() <= 1
+    assert len(np.unique(there.colors, axis=0)) >= min(3, len(np.unique(there.quality)))
+
+
+def test_log_has_the_figures(server, plush):
+    run, _ = server(EXAMPLES / 'texture_atlas.mlx', plush)
+    for figure in ('charts', 'l2_stretch', 'linf_stretch', 'l2_shear', 'seam_length', 'flipped_faces',
+                   'overlapping_faces', 'packing_efficiency', 'seconds'):
+        assert re.search(rf'\b{figure}\b\W+[0-9]', run.stdout), f'no {figure} in the log:\n{run.stdout[-2000:]}'
+
+
+def refused(run, out):
+    """The run was refused with a sentence and wrote nothing."""
+    assert run.returncode == REFUSED, f'exit code {run.returncode}:\n{run.stdout[-2000:]}'
+    assert out is None
+    said = [line for line in run.stdout.splitlines() if 'LOG' in line or is_sentence(line)]
+    assert any(is_sentence(line) for line in said), run.stdout[-2000:]
+
+
+@pytest.mark.parametrize('name', FILTERS)
+def test_no_mesh(server, tmp_path, name):
+    run, out = server(one_filter(tmp_path, name))
+    refused(run, out)
+    assert 'mesh' in run.stdout
+
+
+@pytest.mark.parametrize('name', FILTERS)
+@pytest.mark.parametrize('kind', REFUSED_MESHES)
+def test_refused_mesh(server, tmp_path, name, kind):
+    mesh = write_ply(tmp_path / 'wrong.ply', *REFUSED_MESHES[kind])
+    refused(*server(one_filter(tmp_path, name), mesh))
+
+
+@pytest.mark.parametrize('parameter', OUT_OF_RANGE)
+def test_out_of_range(server, tmp_path, plush, parameter):
+    name = next(name for name, (_, parameters) in FILTERS.items() if parameter in parameters)
+    run, out = server(one_filter(tmp_path, name, **{parameter: OUT_OF_RANGE[parameter][0]}), plush)
+    refused(run, out)
+    assert parameter in run.stdout

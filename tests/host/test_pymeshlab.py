@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The plugin in pymeshlab, by way of the package pymeshlab_dcharts."""
+import numpy as np
+import pytest
+
+from atlas_check import EVALUATOR, SHARED, evaluate, flaws
+from cases import (BOOLEANS, FILTERS, OUT_OF_RANGE, PYTHON_NAMES, REFUSED_MESHES, STAGES, is_sentence, shipped_meshes,
+                   write_ply)
+
+pymeshlab = pytest.importorskip('pymeshlab')
+pytest.importorskip('pymeshlab_dcharts', reason='the package pymeshlab_dcharts is not installed')
+
+MESHES = shipped_meshes()
+BY_PYTHON_NAME = {python: parameters for python, parameters in FILTERS.values()}
+ATLAS = 'dcharts_texture_atlas'
+
+
+def load(path):
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(path))
+    return ms
+
+
+def state(ms):
+    """The bytes of everything Python can see of the current mesh, and the number of layers."""
+    mesh = ms.current_mesh()
+    seen = {'layers': ms.mesh_number(), 'current': ms.current_mesh_id(), 'name': mesh.label()}
+    for part in ('vertex_matrix', 'face_matrix', 'vertex_normal_matrix', 'face_normal_matrix', 'vertex_color_matrix',
+                 'vertex_scalar_array', 'vertex_selection_array', 'face_selection_array', 'face_scalar_array',
+                 'face_color_matrix', 'wedge_tex_coord_matrix', 'wedge_tex_coord_index_array'):
+        try:
+            seen[part] = getattr(mesh, part)().tobytes()
+        except pymeshlab.PyMeshLabException:
+            seen[part] = None  # the mesh has no such thing
+    seen['attributes'] = sorted(mesh.face_custom_scalar_attribute_names) if hasattr(
+        mesh, 'face_custom_scalar_attribute_names') else None
+    return seen
+
+
+def result(ms):
+    """What the filters are for: chart ids, colours and texcoords."""
+    seen = state(ms)
+    return {part: seen[part] for part in ('face_scalar_array', 'face_color_matrix', 'wedge_tex_coord_matrix')}
+
+
+@pytest.fixture
+def painted(plush):
+    """The plush model with quality, colour, texcoords and selection that no filter would write."""
+    ms = load(plush)
+    ms.compute_texcoord_parametrization_triangle_trivial_per_wedge(sidedim=0)
+    ms.compute_scalar_by_function_per_face(q='fi * 0.37 - 5')
+    ms.compute_color_by_function_per_face(r='fi % 256', g='(fi * 7) % 256', b='17', a='255')
+    ms.compute_selection_by_condition_per_face(condselect='fi % 3 == 0')
+    assert None not in state(ms).values() or state(ms)['attributes'] is None
+    return ms
+
+
+@pytest.mark.parametrize('name', PYTHON_NAMES)
+def test_filter_exists(name):
+    assert name in pymeshlab.filter_list()
+    documentation = getattr(pymeshlab.MeshSet, name).__doc__
+    assert documentation and 'developable' in documentation + ' developable' * (name != ATLAS)
+    for parameter in BY_PYTHON_NAME[name]:
+        assert parameter in documentation, f'{parameter} is not in the documentation of {name}'
+
+
+@pytest.mark.parametrize('name', PYTHON_NAMES)
+def test_parameters(name):
+    values = pymeshlab.filter_parameter_values(name)
+    names = [entry if isinstance(entry, str) else entry[0] for entry in values]
+    assert sorted(names) == sorted(BY_PYTHON_NAME[name])
+
+
+def test_every_number_has_bad_values():
+    for parameters in BY_PYTHON_NAME.values():
+        assert set(parameters) <= set(OUT_OF_RANGE) | set(BOOLEANS)
+
+
+@pytest.mark.parametrize('mesh', MESHES, ids=lambda path: path.stem)
+def test_stages_are_the_one_shot_filter(mesh, tmp_path):
+    once, staged, resumed = load(mesh), load(mesh), load(mesh)
+    once.apply_filter(ATLAS)
+    for i, name in enumerate(STAGES):
+        staged.apply_filter(name)
+        resumed.apply_filter(name)
+        saved = tmp_path / f'after_{name}.ply'
+        resumed.save_current_mesh(str(saved))
+        resumed = load(saved)
+        if name in ('dcharts_fill', 'dcharts_merge'):
+            assert (staged.current_mesh().face_scalar_array() >= 0).all(), f'unassigned faces after {name}'
+    assert result(staged) == result(once)
+    assert resumed.current_mesh().face_scalar_array().tobytes() == once.current_mesh().face_scalar_array().tobytes()
+    assert result(resumed)['wedge_tex_coord_matrix'] == result(once)['wedge_tex_coord_matrix']
+
+
+@pytest.mark.parametrize('mesh', MESHES, ids=lambda path: path.stem)
+def test_result(mesh):
+    ms = load(mesh)
+    before = state(ms)
+    figures = ms.apply_filter(ATLAS)
+    after = state(ms)
+    for part in ('layers', 'current', 'name', 'vertex_matrix', 'face_matrix', 'vertex_normal_matrix',
+                 'vertex_color_matrix', 'vertex_scalar_array', 'vertex_selection_array', 'face_selection_array'):
+        assert after[part] == before[part], f'{part} changed'
+    charts = ms.current_mesh().face_scalar_array()
+    texcoords = ms.current_mesh().wedge_tex_coord_matrix()
+    assert np.array_equal(np.unique(charts), np.arange(figures['charts'])), 'chart ids are not 0..n-1'
+    assert np.isfinite(texcoords).all() and texcoords.min() >= 0 and texcoords.max() <= 1
+    assert figures['flipped_faces'] == 0 and figures['overlapping_faces'] == 0
+    assert figures['unassigned_faces'] == 0
+    assert 1 - 1e-9 <= figures['l2_stretch'] <= figures['linf_stretch'] < np.inf
+    assert 0 <= figures['l2_shear'] < 1 and 0 < figures['packing_efficiency'] <= 1 and figures['seam_length'] >= 0
+    assert figures['seconds'] >= 0
+
+
+@pytest.mark.parametrize('mesh', MESHES, ids=lambda path: path.stem)
+def test_measure_agrees_and_changes_nothing(mesh):
+    ms = load(mesh)
+    figures = ms.apply_filter(ATLAS)
+    before = state(ms)
+    measured = ms.dcharts_measure()
+    assert state(ms) == before
+    assert measured['charts'] == figures['charts']
+    for name in ('l2_stretch', 'linf_stretch', 'l2_shear', 'seam_length', 'packing_efficiency'):
+        assert measured[name] == pytest.approx(figures[name], rel=1e-5, abs=1e-7), name
+
+
+def atlas_meshes():
+    shared = sorted((SHARED / 'meshes').glob('*.ply')) if SHARED.exists() else []
+    # The chair is a heap of parts that meet in non-manifold edges.
+    return MESHES + [mesh for mesh in shared if not mesh.stem.startswith('nasty')]
+
+
+@pytest.mark.parametrize('mesh', atlas_meshes(), ids=lambda path: f'{path.parent.parent.name}-{path.stem}')
+def test_atlas_is_sound(mesh, tmp_path):
+    if not EVALUATOR.exists():
+        pytest.skip('the evaluator, ../shared/tools/evaluate_atlas.py, is not beside this checkout')
+    ms = load(mesh)
+    figures = ms.apply_filter(ATLAS)
+    atlas = tmp_path / 'atlas.ply'
+    ms.save_current_mesh(str(atlas))
+    outside = evaluate(atlas, mesh)
+    assert flaws(outside) == []
+    assert outside['charts'] == figures['charts']
+    assert outside['L2_stretch'] == pytest.approx(figures['l2_stretch'], rel=1e-4)
+
+
+def test_same_bytes_again(plush):
+    first, second = load(plush), load(plush)
+    first.apply_filter(ATLAS)
+    second.apply_filter(ATLAS)
+    assert result(first) == result(second)
+
+
+def test_seam_layer_is_one_more_layer(plush):
+    plain, ms = load(plush), load(plush)
+    plain.apply_filter(ATLAS)
+    ms.apply_filter(ATLAS, seam_layer=True)
+    assert result(ms) == result(plain)
+    assert ms.mesh_number() == 2 and ms.current_mesh_id() == plain.current_mesh_id()
+    seams = ms.mesh(1)
+    assert seams.edge_number() > 0 and seams.face_number() == 0
+
+
+# --- wrong input
+
+def refusal(ms, name, **parameters):
+    """The sentence with which the filter refuses; the mesh must be what it was."""
+    before = state(ms)
+    with pytest.raises(pymeshlab.PyMeshLabException) as refused:
+        ms.apply_filter(name, **parameters)
+    assert state(ms) == before, 'the mesh changed'
+    assert is_sentence(str(refused.value)), str(refused.value)
+    return str(refused.value)
+
+
+@pytest.mark.parametrize('name', PYTHON_NAMES)
+def test_no_mesh(name):
+    with pytest.raises(pymeshlab.PyMeshLabException):
+        pymeshlab.MeshSet().apply_filter(name)
+
+
+@pytest.mark.parametrize('name', PYTHON_NAMES)
+@pytest.mark.parametrize('kind', REFUSED_MESHES)
+def test_refused_mesh(tmp_path, name, kind):
+    if kind == 'empty mesh':
+        ms = pymeshlab.MeshSet()
+        ms.add_mesh(pymeshlab.Mesh(), 'empty')
+    else:
+        ms = load(write_ply(tmp_path / 'wrong.ply', *REFUSED_MESHES[kind]))
+    refusal(ms, name)
+
+
+@pytest.mark.parametrize('name, parameter, value',
+                         [(name, parameter, value) for name, parameters in BY_PYTHON_NAME.items()
+                          for parameter in parameters for value in OUT_OF_RANGE.get(parameter, ())])
+def test_out_of_range(painted, name, parameter, value):
+    assert parameter in refusal(painted, name, **{parameter: value})
+
+
+@pytest.mark.parametrize('parameter', [p for p, values in OUT_OF_RANGE.items() if isinstance(values[0], float)])
+@pytest.mark.parametrize('value', [float('nan'), float('inf')])
+def test_not_a_number(painted, parameter, value):
+    assert parameter in refusal(painted, ATLAS, **{parameter: value})
