@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The two pictures of a result, charts.png and atlas.png, and the checker texture."""
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+
+from .raster import NOTHING, rasterize, shrink, stamp_lines
+from .shading import corner_normals, light
+from .views import choose_views, guess_up, project
+
+SUPERSAMPLING = 2
+PAPER = np.array([1.0, 1.0, 1.0])
+INK = np.array([0.10, 0.10, 0.13])
+UNASSIGNED = np.array([0.75, 0.75, 0.75])
+
+
+def chart_colors(count):
+    """`count` soft colours (0..1), neighbours in number far apart in hue."""
+    k = np.arange(count)
+    hue = (0.08 + k * 0.61803398875) % 1
+    saturation = np.array([0.50, 0.62, 0.38])[(k // 3) % 3]
+    value = np.array([0.97, 0.88])[k % 2]
+    channel = (hue[:, None] * 6 + np.array([5, 3, 1])) % 6
+    return value[:, None] * (1 - saturation[:, None] * np.clip(np.minimum(channel, 4 - channel), 0, 1))
+
+
+
+class Model:
+    """A mesh with charts and texture coordinates, ready to be drawn.
+
+    vertices n by 3; faces m by 3; chart_ids m (-1: none); uvs m by 3 by 2, or None;
+    colors m by 3 (0..1) or None for colours made from the chart ids.
+    """
+
+    def __init__(self, vertices, faces, chart_ids, uvs=None, colors=None):
+        self.vertices = np.asarray(vertices, float)
+        self.faces = np.asarray(faces)
+        self.chart_ids = np.asarray(chart_ids).round().astype(int)
+        self.uvs = None if uvs is None else np.asarray(uvs, float).reshape(-1, 3, 2)
+        if colors is None:
+            palette = np.vstack([chart_colors(max(self.chart_ids.max(initial=-1) + 1, 0)), UNASSIGNED])
+            colors = palette[self.chart_ids]
+        self.colors = np.asarray(colors, float)
+        corners = self.vertices[self.faces]
+        self.areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+        self.normals = corner_normals(self.vertices, self.faces)
+        self.up = guess_up(self.vertices, self.faces)
+        self.seam_corners = self._seam_corners()
+
+    def _seam_corners(self):
+        """(face, corner) of every edge from that corner to the next that is a border, in space or in the texture, of a chart."""
+        start = self.faces.ravel()
+        end = self.faces[:, [1, 2, 0]].ravel()
+        face = np.repeat(np.arange(len(self.faces)), 3)
+        corner = np.tile(np.arange(3), len(self.faces))
+        low, high = np.minimum(start, end), np.maximum(start, end)
+        order = np.lexsort((high, low))
+        same = (low[order][1:] == low[order][:-1]) & (high[order][1:] == high[order][:-1])
+        group = np.r_[0, np.cumsum(~same)]
+        sizes = np.bincount(group)
+        seam = sizes[group] != 2
+        first = np.flatnonzero(same & (sizes[group][:-1] == 2))
+        a, b = order[first], order[first + 1]
+        differs = self.chart_ids[face[a]] != self.chart_ids[face[b]]
+        if self.uvs is not None:
+            uv = self.uvs.reshape(-1, 2)
+            next_a, next_b = face[a] * 3 + (corner[a] + 1) % 3, face[b] * 3 + (corner[b] + 1) % 3
+            turned = start[a] == end[b]
+            at_start, at_end = np.where(turned, next_b, b), np.where(turned, b, next_b)
+            differs |= (uv[a] != uv[at_start]).any(1) | (uv[next_a] != uv[at_end]).any(1)
+        seam[first] = differs
+        seam[first + 1] = differs
+        chosen = order[seam]
+        return face[chosen], corner[chosen]
+
+    def draw(self, view, width, height, colors_at, line_width):
+        """A picture (height by width by 3, 0..1) of the model on paper; colors_at(seen) gives the unlit colours."""
+        big_width, big_height = width * SUPERSAMPLING, height * SUPERSAMPLING
+        pixels, depths, _ = project(self.vertices, view, big_width, big_height, 0.05 * min(big_width, big_height))
+        seen = rasterize(pixels, depths, self.faces, big_width, big_height)
+        size = np.ptp(pixels, axis=0).max()
+        picture = light(colors_at(seen), seen.interpolate(self.normals), view, seen.depth, size)
+
+        face, corner = self.seam_corners
+        a, b = self.faces[face, corner], self.faces[face, (corner + 1) % 3]
+        lines = np.zeros(seen.face.shape, bool)
+        # A seam on the far side stays hidden; on slopes the depth changes much within a pixel.
+        front = seen.depth.copy()
+        for shift in (-1, 1):
+            for axis in (0, 1):
+                rolled = np.roll(seen.depth, shift, axis)
+                front = np.where(np.isfinite(rolled), np.maximum(front, np.minimum(rolled, front + 0.01 * size)), front)
+
+        def visible(columns, rows, segment, t):
+            z = depths[a[segment]] * (1 - t) + depths[b[segment]] * t
+            return z < front[rows, columns] + 0.004 * size
+
+        stamp_lines(lines, pixels[a], pixels[b], line_width * SUPERSAMPLING / 2, visible)
+        lines &= seen.face != NOTHING
+        picture[lines] = 0.15 * picture[lines] + 0.85 * INK
+        picture[seen.face == NOTHING] = PAPER
+        return shrink(picture, SUPERSAMPLING)
+
+
+def checker(uv, cells):
+    """0 or 1 at texture coordinates (... by 2)."""
+    return (np.floor(uv[..., 0] * cells) + np.floor(uv[..., 1] * cells)) % 2
+
+
+def checker_image(size=1024, cells=32):
+    """The checker as a texture: grey-blue and nearly white fields. Returns a PIL image."""
+    u = (np.arange(size) + 0.5) / size
+    uv = np.stack(np.meshgrid(u, 1 - u), -1)
+    return Image.fromarray(_to_bytes(_checker_colors(uv, cells)))
+
+
+def _checker_colors(uv, cells):
+    dark, pale = np.array([0.36, 0.47, 0.62]), np.array([0.96, 0.95, 0.91])
+    return np.where(checker(uv, cells)[..., None] > 0, dark, pale)
+
+
+def _to_bytes(picture):
+    return (np.clip(picture, 0, 1) * 255 + 0.5).astype(np.uint8)
+
+
+def _font(size):
+    return ImageFont.load_default(size)
+
+
+def _page(parts, title, captions=None):
+    """Pictures side by side under a title."""
+    gap, head, foot = 24, 74, 44 if captions else 16
+    width = sum(p.shape[1] for p in parts) + gap * (len(parts) + 1)
+    height = max(p.shape[0] for p in parts) + head + foot
+    page = Image.new("RGB", (width, height), tuple(_to_bytes(PAPER).tolist()))
+    draw = ImageDraw.Draw(page)
+    ink = tuple(_to_bytes(INK).tolist())
+    draw.text((gap, 20), title, fill=ink, font=_font(30))
+    x = gap
+    for i, part in enumerate(parts):
+        page.paste(Image.fromarray(_to_bytes(part)), (x, head))
+        if captions:
+            draw.text((x + part.shape[1] / 2, head + part.shape[0] + 8), captions[i], fill=ink, font=_font(20), anchor="ma")
+        x += part.shape[1] + gap
+    return page
+
+
+def charts_picture(model, title, views=3, size=760):
+    """The model from `views` sides, each chart in its colour, seams as dark lines. Returns a PIL image."""
+    cameras = choose_views(model.vertices, model.faces, model.areas, model.up, views)
+    parts = [model.draw(view, size, size, lambda seen: _chart_colors_at(model, seen), 2.2) for view in cameras]
+    return _page(parts, title)
+
+
+def _chart_colors_at(model, seen):
+    return model.colors[seen.face]
+
+
+def atlas_picture(model, title, cells=32, size=1000):
+    """The atlas with its charts in their colours under a checker, and the model with the same checker. Returns a PIL image."""
+    big = size * SUPERSAMPLING
+    points = model.uvs.reshape(-1, 2) * [big, -big] + [0, big]
+    seen = rasterize(points, np.zeros(len(points)), np.arange(len(points)).reshape(-1, 3), big, big)
+    fields = checker(seen.interpolate(model.uvs), cells)
+    atlas = model.colors[seen.face] * np.where(fields[..., None] > 0, 0.80, 1.0)
+    atlas[seen.face == NOTHING] = [0.93, 0.93, 0.94]
+    lines = np.zeros(seen.face.shape, bool)
+    face, corner = model.seam_corners
+    starts, ends = points.reshape(-1, 3, 2)[face, corner], points.reshape(-1, 3, 2)[face, (corner + 1) % 3]
+    stamp_lines(lines, starts, ends, 0.9 * SUPERSAMPLING)
+    atlas[lines] = INK
+
+    def textured(seen_from_view):
+        fields_on_model = checker(seen_from_view.interpolate(model.uvs), cells)
+        return model.colors[seen_from_view.face] * np.where(fields_on_model[..., None] > 0, 0.62, 1.0)
+
+    view = choose_views(model.vertices, model.faces, model.areas, model.up, 1)[0]
+    return _page([shrink(atlas, SUPERSAMPLING), model.draw(view, size, size, textured, 2.2)], title)

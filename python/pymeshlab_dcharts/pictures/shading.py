@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Light on a rasterized model."""
+import numpy as np
+
+
+def corner_normals(vertices, faces, crease_degrees=35):
+    """Unit normals at every face's corners (faces by 3 by 3): smooth, but not across creases sharper than the angle."""
+    corners = vertices[faces]
+    weighted = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    unit = weighted / np.maximum(np.linalg.norm(weighted, axis=1, keepdims=True), 1e-300)
+    # All pairs of corners at the same vertex.
+    order = np.argsort(faces.ravel(), kind="stable")
+    at = faces.ravel()[order]
+    first = np.searchsorted(at, at, "left")
+    count = np.searchsorted(at, at, "right") - first
+    me = np.repeat(np.arange(len(at)), count)
+    other = first[me] + np.arange(len(me)) - np.repeat(np.cumsum(count) - count, count)
+    my_face, other_face = order[me] // 3, order[other] // 3
+    alike = (unit[my_face] * unit[other_face]).sum(1) > np.cos(np.radians(crease_degrees))
+    normals = np.zeros((len(at), 3))
+    for axis in range(3):
+        normals[order, axis] = np.bincount(
+            me[alike], weighted[other_face[alike], axis], minlength=len(at)
+        )
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    normals = np.where(lengths > 0, normals / np.maximum(lengths, 1e-300), np.repeat(unit, 3, axis=0))
+    return normals.reshape(-1, 3, 3)
+
+
+def _blur(values, radius):
+    """Three box filters, nearly a Gaussian."""
+    for _ in range(3):
+        for axis in (0, 1):
+            padded = np.pad(values, [(radius + 1, radius) if k == axis else (0, 0) for k in (0, 1)], mode="edge")
+            sums = np.moveaxis(np.cumsum(padded, axis=axis), axis, 0)
+            values = np.moveaxis((sums[2 * radius + 1 :] - sums[: -2 * radius - 1]) / (2 * radius + 1), 0, axis)
+    return values
+
+
+def hollow_shadow(depth, size):
+    """0..1 per pixel: how much a pixel lies behind its surroundings; `size` is the picture's model size in pixels."""
+    solid = np.isfinite(depth)
+    if not solid.any():
+        return np.zeros_like(depth)
+    shadow = np.zeros_like(depth)
+    for radius in (max(2, int(size * 0.012)), max(3, int(size * 0.045))):
+        share = _blur(solid.astype(float), radius)
+        around = _blur(np.where(solid, depth, 0), radius) / np.maximum(share, 1e-6)
+        shadow += np.clip((np.where(solid, depth, 0) - around) / (1.6 * radius), 0, 1) / 2
+    return np.where(solid, shadow, 0)
+
+
+def light(colors, normals, view, depth, size):
+    """Lit colours (height by width by 3, 0..1) from plain ones and unit normals in space."""
+    eye = normals @ view.T
+    eye /= np.maximum(np.linalg.norm(eye, axis=2, keepdims=True), 1e-9)
+    eye = np.where(eye[..., 2:] < 0, -eye, eye)  # inner sides are lit too
+
+    def lamp(*towards):
+        return np.clip(eye @ (np.array(towards) / np.linalg.norm(towards)), 0, None)
+
+    diffuse = 0.50 + 0.13 * eye[..., 1] + 0.44 * lamp(-0.45, 0.65, 0.7) + 0.14 * lamp(0.9, 0.1, 0.5)
+    half = np.array([-0.45, 0.65, 0.7]) / np.linalg.norm([-0.45, 0.65, 0.7]) + [0, 0, 1]
+    gloss = 0.13 * lamp(*half) ** 40
+    shadow = 1 - 0.5 * hollow_shadow(depth, size)
+    return np.clip(colors * (diffuse * shadow)[..., None] + gloss[..., None], 0, 1)
