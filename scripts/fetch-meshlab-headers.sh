@@ -67,8 +67,11 @@ download() {
   for suite in $suites; do
     printf 'Types: deb-src\nURIs: %s\nSuites: %s\nComponents: main\nSigned-By: %s\n' \
       "$mirror" "$suite" "$keyring" >"$work/etc/meshlab.sources"
-    private apt-get update >"$work/log" 2>&1 || { cat "$work/log" >&2; continue; }
-    for candidate in $(private apt-cache showsrc --only-source meshlab | awk '$1 == "Version:" { print $2 }'); do
+    if ! private apt-get -o APT::Update::Error-Mode=any update >"$work/log" 2>&1; then
+      grep '^E:' "$work/log" >&2 || cat "$work/log" >&2
+      continue
+    fi
+    for candidate in $(private apt-cache showsrc --only-source meshlab 2>/dev/null | awk '$1 == "Version:" { print $2 }'); do
       # shellcheck disable=SC2053  # the right side is a pattern
       [[ $candidate == $pattern ]] || continue
       (cd "$work" && private apt-get source --download-only --tar-only "meshlab=$candidate") \
