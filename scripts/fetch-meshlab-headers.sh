@@ -48,12 +48,16 @@ private() {
     -o APT::Sandbox::User=root -o Acquire::Retries=3 -o Acquire::Check-Valid-Until=false "$@"
 }
 
-# The mirror from which this machine gets its own release.
+# The mirror from which this machine gets Debian: that of its own release, else any that looks like one.
 find_mirror() {
   local codename
   codename=$(. /etc/os-release && echo "${VERSION_CODENAME:-}")
   apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(CREATED_BY)' 2>/dev/null |
-    awk -v release="$codename" '$2 == release && $3 == "Packages" && !seen++ { print $1 }'
+    awk -v release="$codename" '
+      $3 != "Packages" { next }
+      $2 == release && !own { own = $1 }
+      $1 ~ /\/debian\/?$/ && !other { other = $1 }
+      END { print own ? own : other }'
 }
 
 # Puts $tarball into $work.
