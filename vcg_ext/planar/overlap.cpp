@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planar/overlap.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dcharts {
+namespace {
+
+std::int64_t Orientation(std::int64_t ax, std::int64_t ay, std::int64_t bx, std::int64_t by, std::int64_t cx,
+                         std::int64_t cy) {
+  return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
+}
+
+GridTriangle Counterclockwise(GridTriangle t) {
+  if (TwiceArea(t) < 0) {
+    std::swap(t[2], t[4]);
+    std::swap(t[3], t[5]);
+  }
+  return t;
+}
+
+// True when all of b lies on or to the right of an edge of a (counterclockwise).
+bool Separates(const GridTriangle& a, const GridTriangle& b) {
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    bool inside = false;
+    for (int k = 0; k < 3 && !inside; ++k)
+      inside = Orientation(a[2 * i], a[2 * i + 1], a[2 * j], a[2 * j + 1], b[2 * k], b[2 * k + 1]) > 0;
+    if (!inside) return true;
+  }
+  return false;
+}
+
+struct Box {
+  std::int32_t low[2], high[2];
+};
+
+Box BoxOf(const GridTriangle& t) {
+  Box box;
+  for (int d : {0, 1}) {
+    box.low[d] = std::min({t[d], t[2 + d], t[4 + d]});
+    box.high[d] = std::max({t[d], t[2 + d], t[4 + d]});
+  }
+  return box;
+}
+
+}  // namespace
+
+std::int64_t TwiceArea(const GridTriangle& t) { return Orientation(t[0], t[1], t[2], t[3], t[4], t[5]); }
+
+bool Overlap(const GridTriangle& a, const GridTriangle& b) {
+  if (TwiceArea(a) == 0 || TwiceArea(b) == 0) return false;
+  const GridTriangle p = Counterclockwise(a), q = Counterclockwise(b);
+  return !Separates(p, q) && !Separates(q, p);
+}
+
+std::vector<std::pair<int, int>> OverlappingPairs(const std::vector<GridTriangle>& triangles, size_t limit) {
+  std::vector<std::pair<int, int>> pairs;
+  const int count = static_cast<int>(triangles.size());
+  if (count < 2) return pairs;
+  std::vector<Box> boxes;
+  std::int64_t low[2] = {INT32_MAX, INT32_MAX}, high[2] = {INT32_MIN, INT32_MIN};
+  double mean_size[2] = {0, 0};
+  for (const GridTriangle& t : triangles) {
+    boxes.push_back(BoxOf(t));
+    for (int d : {0, 1}) {
+      low[d] = std::min<std::int64_t>(low[d], boxes.back().low[d]);
+      high[d] = std::max<std::int64_t>(high[d], boxes.back().high[d]);
+      mean_size[d] += (static_cast<double>(boxes.back().high[d]) - boxes.back().low[d]) / count;
+    }
+  }
+  // Cells about as large as a triangle's box, but never many more cells than triangles.
+  std::int64_t cells[2], cell_size[2];
+  const double most = 2 * std::sqrt(static_cast<double>(count)) + 1;
+  for (int d : {0, 1}) {
+    const double extent = static_cast<double>(high[d] - low[d]) + 1;
+    cells[d] = static_cast<std::int64_t>(std::clamp(extent / std::max(1.0, mean_size[d]), 1.0, most));
+    cell_size[d] = static_cast<std::int64_t>(std::ceil(extent / static_cast<double>(cells[d])));
+  }
+  auto cell_of = [&](std::int32_t x, int d) { return (x - low[d]) / cell_size[d]; };
+  auto for_cells = [&](int t, auto&& visit) {
+    const Box& b = boxes[t];
+    for (std::int64_t y = cell_of(b.low[1], 1); y <= cell_of(b.high[1], 1); ++y)
+      for (std::int64_t x = cell_of(b.low[0], 0); x <= cell_of(b.high[0], 0); ++x)
+        visit(static_cast<size_t>(y * cells[0] + x));
+  };
+  std::vector<int> start(cells[0] * cells[1] + 1, 0);
+  for (int t = 0; t < count; ++t) for_cells(t, [&](size_t cell) { ++start[cell + 1]; });
+  for (size_t c = 1; c < start.size(); ++c) start[c] += start[c - 1];
+  std::vector<int> members(start.back()), fill(start.begin(), start.end() - 1);
+  for (int t = 0; t < count; ++t) for_cells(t, [&](size_t cell) { members[fill[cell]++] = t; });
+
+  for (size_t cell = 0; cell + 1 < start.size(); ++cell)
+    for (int m = start[cell]; m < start[cell + 1]; ++m)
+      for (int n = m + 1; n < start[cell + 1]; ++n) {
+        const int i = members[m], j = members[n];
+        const Box &a = boxes[i], &b = boxes[j];
+        if (a.low[0] >= b.high[0] || b.low[0] >= a.high[0] || a.low[1] >= b.high[1] || b.low[1] >= a.high[1])
+          continue;
+        // A pair that shares several cells is taken in the one with the corner of the boxes' intersection.
+        const size_t home = static_cast<size_t>(cell_of(std::max(a.low[1], b.low[1]), 1) * cells[0] +
+                                                cell_of(std::max(a.low[0], b.low[0]), 0));
+        if (home != cell || !Overlap(triangles[i], triangles[j])) continue;
+        pairs.push_back({i, j});
+        if (pairs.size() >= limit) {
+          std::sort(pairs.begin(), pairs.end());
+          return pairs;
+        }
+      }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::vector<GridTriangle> OnGrid(const Points2& uv, const Triangles& triangles) {
+  constexpr double kCells = 1 << 28;
+  const Eigen::RowVector2d low = uv.colwise().minCoeff();
+  const double size = (uv.colwise().maxCoeff() - low).maxCoeff();
+  const double scale = size > 0 ? kCells / size : 0;
+  std::vector<GridTriangle> grid(triangles.rows());
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+    for (int i = 0; i < 3; ++i)
+      for (int d : {0, 1})
+        grid[f][2 * i + d] =
+            static_cast<std::int32_t>(std::lround((uv(triangles(f, i), d) - low[d]) * scale));
+  return grid;
+}
+
+}  // namespace dcharts

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/parallel.h"
+#include "common/params.h"
+#include "common/progress.h"
+#include "planar/flatten.h"
+#include "planar/overlap.h"
+#include "planar/packing.h"
+#include "surface/chart_patch.h"
+#include "surface/charts.h"
+#include "surface/cut.h"
+#include "surface/merge.h"
+#include "surface/rounding.h"
+#include "surface/seams.h"
+#include "surface/slits.h"
+#include "surface/split_chart.h"
+
+namespace dcharts {
+
+/// Flattens every chart, removes overlaps by cutting (Section 4, "Fixing gussets and overlaps"), and packs.
+template <class MeshType>
+class Parameterizer {
+ public:
+  Parameterizer(const SurfaceGraph<MeshType>& surface, const Params& params, Progress& progress)
+      : surface_(surface), params_(params), progress_(progress), wedge_(surface.FaceCount()) {}
+
+  /// `seams` must agree with `ids`. Both change where a chart had to be cut or split. Returns finished
+  /// texcoords.
+  WedgeTexcoords Run(ChartIds& ids, SeamMask& seams) {
+    ChartCutter<MeshType> cutter(surface_, params_, progress_);
+    cutter.OpenHandles(ids, seams);
+    all_disks_ = AllDisks(ids, seams);
+    state_.assign(surface_.FaceCount(), State::kToFlatten);
+    splits_.assign(surface_.FaceCount(), 0);
+    cut_off_.assign(surface_.FaceCount(), 0);
+    constexpr int kAttempts =
+        4;  // rounding to the texture's grid may show an overlap that wasn't there before
+    for (int attempt = 0;; ++attempt) {
+      FlattenAll(ids, seams);
+      if (attempt == 0) RejoinCutOffs(ids, seams);
+      WedgeTexcoords uv;
+      const std::vector<int> bad_charts = PackAndRound(ids, seams, uv);
+      if (bad_charts.empty() || attempt == kAttempts) {
+        if (!bad_charts.empty())
+          progress_.Log(
+              "Some faces are too thin for float texture coordinates; see flipped_faces and "
+              "overlapping_faces.");
+        return uv;
+      }
+      for (int f = 0; f < surface_.FaceCount(); ++f)
+        if (std::binary_search(bad_charts.begin(), bad_charts.end(), ids[f])) state_[f] = State::kToBisect;
+    }
+  }
+
+ private:
+  enum class State : char { kDone, kToFlatten, kToCheck, kToBisect };
+
+  struct Piece {
+    ChartPatch patch;
+    Points2 uv;
+    bool flat = false;
+    std::vector<std::pair<int, int>> overlaps;
+    std::string why;
+  };
+
+  bool AllDisks(const ChartIds& ids, const SeamMask& seams) const {
+    const CutVertices cut = OpenAtSeams(surface_, seams);
+    PatchExtractor<MeshType> extractor(surface_, cut, seams);
+    for (const auto& faces : FacesOfCharts(ids))
+      if (LoopsOf(extractor.Extract(faces)).size() != 1) return false;
+    return true;
+  }
+
+  // Until every chart is flat without overlap. Each round makes the charts that are not smaller or cuts them
+  // open, so it ends: a single face is always flat.
+  void FlattenAll(ChartIds& ids, SeamMask& seams) {
+    for (;;) {
+      const CutVertices cut = OpenAtSeams(surface_, seams);
+      const SeamMask before = seams;
+      PatchExtractor<MeshType> extractor(surface_, cut, before);
+      std::vector<Piece> pieces;
+      for (const auto& faces : FacesOfCharts(ids))
+        if (state_[faces.front()] != State::kDone)
+          pieces.push_back({extractor.Extract(faces), {}, false, {}, {}});
+      if (pieces.empty()) return;
+
+      std::vector<int> order(pieces.size());  // the largest first, for even threads
+      std::iota(order.begin(), order.end(), 0);
+      std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+        return pieces[a].patch.faces.size() > pieces[b].patch.faces.size();
+      });
+      ParallelFor(static_cast<int>(pieces.size()), progress_,
+                  [&](int k, const std::function<void()>& poll) { FlattenPiece(pieces[order[k]], poll); });
+      int next_id = ChartCount(ids);
+      for (Piece& piece : pieces) Settle(piece, ids, seams, next_id);
+      SplitAndCompact(surface_, ids, &seams);
+    }
+  }
+
+  void FlattenPiece(Piece& piece, const std::function<void()>& poll) const {
+    const State state = state_[piece.patch.faces.front()];
+    if (state == State::kToBisect) return;
+    if (state == State::kToCheck) {
+      piece.uv = StoredUv(piece.patch);
+      piece.flat = true;
+    } else {
+      if (all_disks_ && LoopsOf(piece.patch).size() > 1) return;  // a part of a disk must become a disk again
+      const Flattening flat = Flatten(piece.patch.mesh, {}, poll);
+      piece.flat = flat.ok;
+      piece.why = flat.why;
+      piece.uv = flat.uv;
+      if (flat.ok)
+        OpenSlits(piece.patch, SurfaceVertices(piece.patch), kSlitGap * std::sqrt(piece.patch.Area()),
+                  piece.uv);
+    }
+    if (piece.flat)
+      piece.overlaps = OverlappingPairs(OnGrid(piece.uv, piece.patch.mesh.triangles), kMostOverlaps);
+  }
+
+  std::vector<int> SurfaceVertices(const ChartPatch& patch) const {
+    std::vector<int> vertex(patch.VertexCount());
+    for (int h = 0; h < patch.HalfEdgeCount(); ++h)
+      vertex[patch.Vertex(h)] = surface_.Vertex(patch.SurfaceHalfEdge(h));
+    return vertex;
+  }
+
+  Points2 StoredUv(const ChartPatch& patch) const {
+    Points2 uv(patch.VertexCount(), 2);
+    for (int h = 0; h < patch.HalfEdgeCount(); ++h) {
+      const auto& wedge = wedge_[patch.faces[h / 3]];
+      uv.row(patch.Vertex(h)) << wedge[2 * (h % 3)], wedge[2 * (h % 3) + 1];
+    }
+    return uv;
+  }
+
+  void Store(const Piece& piece) {
+    for (int h = 0; h < piece.patch.HalfEdgeCount(); ++h) {
+      auto& wedge = wedge_[piece.patch.faces[h / 3]];
+      wedge[2 * (h % 3)] = piece.uv(piece.patch.Vertex(h), 0);
+      wedge[2 * (h % 3) + 1] = piece.uv(piece.patch.Vertex(h), 1);
+    }
+  }
+
+  // Keeps a good piece, cuts or splits another.
+  void Settle(const Piece& piece, ChartIds& ids, SeamMask& seams, int& next_id) {
+    const ChartPatch& patch = piece.patch;
+    if (piece.flat && piece.overlaps.empty()) {
+      Store(piece);
+      for (int f : patch.faces) state_[f] = State::kDone;
+      return;
+    }
+    if (piece.flat) {
+      // After some tries the parts keep the places they have: then each split removes overlaps for good.
+      constexpr int kFreshTries = 3;
+      const bool inherit = ++splits_[patch.faces.front()] > kFreshTries;
+      for (int f : patch.faces) splits_[f] = splits_[patch.faces.front()];
+      if (inherit) Store(piece);
+      SplitPiece(patch, SplitAtOverlaps(patch, piece.overlaps), inherit ? State::kToCheck : State::kToFlatten,
+                 ids, seams, next_id);
+      MarkCutOff(patch, ids);
+      return;
+    }
+    if (state_[patch.faces.front()] != State::kToBisect && LoopsOf(patch).size() > 1) {
+      ChartCutter<MeshType>(surface_, params_, progress_).Mark(patch, CutsThatJoinLoops(patch, true), seams);
+      return;
+    }
+    if (patch.faces.size() == 1) {  // no triangle refuses to lie flat, but one without any extent may
+      constexpr double kTiny = 1e-6;
+      if (state_[patch.faces.front()] != State::kToBisect)
+        wedge_[patch.faces.front()] = {0, 0, kTiny, 0, 0, kTiny};
+      state_[patch.faces.front()] = State::kDone;
+      return;
+    }
+    SplitPiece(patch, Bisect(patch), State::kToFlatten, ids, seams, next_id);
+  }
+
+  void SplitPiece(const ChartPatch& patch, const std::vector<int>& side, State next, ChartIds& ids,
+                  SeamMask& seams, int& next_id) {
+    for (size_t k = 0; k < patch.faces.size(); ++k) {
+      state_[patch.faces[k]] = next;
+      if (side[k] == 1) ids[patch.faces[k]] = next_id;
+    }
+    ++next_id;
+    for (int h = 0; h < patch.HalfEdgeCount(); ++h) {
+      const int o = patch.opposite[h];
+      if (o >= 0 && side[h / 3] != side[o / 3]) SetSeam(seams, patch.SurfaceHalfEdge(h));
+    }
+  }
+
+  // Of a chart split at an overlap, the smaller part may be joined to another chart.
+  void MarkCutOff(const ChartPatch& patch, const ChartIds& ids) {
+    std::map<int, double> area;
+    for (int f : patch.faces) area[ids[f]] += surface_.Area(f);
+    const auto larger =
+        std::max_element(area.begin(), area.end(), [](auto& a, auto& b) { return a.second < b.second; });
+    for (int f : patch.faces) cut_off_[f] = ids[f] != larger->first;
+  }
+
+  // "The resulting small charts are merged with neighbors if the merging criterion is satisfied and the merge
+  // itself does not create new overlaps."
+  void RejoinCutOffs(ChartIds& ids, SeamMask& seams) {
+    if (std::find(cut_off_.begin(), cut_off_.end(), 1) == cut_off_.end()) return;
+    BoundaryRegion<MeshType> region(surface_);
+    const auto charts = FacesOfCharts(ids);
+    std::vector<double> area(charts.size(), 0);
+    for (int f = 0; f < surface_.FaceCount(); ++f) area[ids[f]] += surface_.Area(f);
+    for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
+      const std::vector<int>& faces = charts[c];
+      if (ids[faces.front()] != c ||
+          !std::all_of(faces.begin(), faces.end(), [&](int f) { return cut_off_[f] == 1; }))
+        continue;
+      progress_.Poll();
+      std::map<int, std::pair<double, std::vector<int>>> borders;  // neighbour: length, faces on both sides
+      for (int f : faces)
+        for (int h = 3 * f; h < 3 * f + 3; ++h) {
+          const int g = surface_.Neighbour(h);
+          if (g < 0 || ids[g] == c) continue;
+          auto& border = borders[ids[g]];
+          border.first += surface_.Length(h);
+          border.second.push_back(f);
+          border.second.push_back(g);
+        }
+      std::vector<std::pair<double, int>> longest_first;
+      for (const auto& b : borders) longest_first.push_back({-b.second.first, b.first});
+      std::sort(longest_first.begin(), longest_first.end());
+      for (const auto& [length, d] : longest_first) {
+        const double error = region.Error(ids, c, d, borders[d].second, std::min(area[c], area[d]));
+        // Parameterize has no merge_threshold of its own: stage by stage must give what the one-shot filter
+        // gives.
+        if (error < Params().merge_threshold && TryJoin(c, d, ids, seams)) {
+          area[d] += area[c];
+          break;
+        }
+      }
+    }
+    SplitAndCompact(surface_, ids, &seams);
+  }
+
+  // Chart c becomes part of d if the union lies flat without overlap.
+  bool TryJoin(int c, int d, ChartIds& ids, SeamMask& seams) {
+    SeamMask joined = seams;
+    std::vector<int> faces;
+    for (int f = 0; f < surface_.FaceCount(); ++f) {
+      if (ids[f] != c && ids[f] != d) continue;
+      faces.push_back(f);
+      for (int h = 3 * f; h < 3 * f + 3; ++h) {
+        const int g = surface_.Neighbour(h);
+        if (g >= 0 && ids[g] != ids[f] && (ids[g] == c || ids[g] == d))
+          joined[f] = static_cast<std::uint8_t>(joined[f] & ~(1 << (h % 3)));
+      }
+    }
+    const CutVertices cut = OpenAtSeams(surface_, joined);
+    Piece piece{PatchExtractor<MeshType>(surface_, cut, joined).Extract(faces), {}, false, {}, {}};
+    const size_t loops = LoopsOf(piece.patch).size();
+    if (loops == 0 || !CutsThatOpenHandles(piece.patch).empty() || (all_disks_ && loops > 1)) return false;
+    const Flattening flat = Flatten(piece.patch.mesh, {}, [&] { progress_.Poll(); });
+    constexpr double kWorthIt = 1.02;
+    if (!flat.ok || flat.l2_stretch > kWorthIt) return false;
+    piece.uv = flat.uv;
+    if (!OverlappingPairs(OnGrid(piece.uv, piece.patch.mesh.triangles), 1).empty()) return false;
+    Store(piece);
+    seams = std::move(joined);
+    for (int f : faces) {
+      ids[f] = d;
+      cut_off_[f] = 0;
+    }
+    return true;
+  }
+
+  // Places all charts in the unit square on the texcoord grid. Returns the charts that overlap or flip there,
+  // sorted.
+  std::vector<int> PackAndRound(const ChartIds& ids, const SeamMask& seams, WedgeTexcoords& uv) {
+    const int chart_count = ChartCount(ids);
+    std::vector<std::vector<double>> rows(chart_count);
+    for (int h = 0; h < surface_.HalfEdgeCount(); ++h) {
+      if (surface_.Opposite(h) >= 0 && !IsSeam(seams, h)) continue;
+      auto& r = rows[ids[h / 3]];
+      for (int k : {h % 3, Next(h) % 3})
+        for (int d : {0, 1}) r.push_back(wedge_[h / 3][2 * k + d]);
+    }
+    std::vector<Points2> outlines;
+    for (const auto& r : rows)
+      outlines.push_back(Eigen::Map<const Points2>(r.data(), static_cast<Eigen::Index>(r.size() / 2), 2));
+    const Packing packing = Pack(outlines, {params_.texture_size, params_.padding, params_.rotate});
+    if (packing.padding < params_.padding)
+      progress_.Log("There are too many charts for the padding asked for: they are " +
+                    std::to_string(packing.padding) + " texels apart.");
+
+    const CutVertices cut = OpenAtSeams(surface_, seams);
+    std::vector<std::int32_t> x(cut.count), y(cut.count);
+    std::vector<Eigen::Matrix2d> turn(chart_count);
+    for (int c = 0; c < chart_count; ++c) {
+      const double angle = packing.placements[c].angle;
+      turn[c] << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    }
+    auto to_grid = [](double t) {
+      return static_cast<std::int32_t>(std::lround(std::clamp(t, 0.0, 1.0) * kTexcoordGrid));
+    };
+    for (int h = 0; h < surface_.HalfEdgeCount(); ++h) {
+      const int c = ids[h / 3];
+      const Eigen::Vector2d p(wedge_[h / 3][2 * (h % 3)], wedge_[h / 3][2 * (h % 3) + 1]);
+      const Eigen::Vector2d q = packing.scale * (turn[c] * p) + packing.placements[c].offset;
+      x[cut.of_corner[h]] = to_grid(q.x());
+      y[cut.of_corner[h]] = to_grid(q.y());
+    }
+    std::vector<int> bad;
+    for (int f : MendRoundedTriangles(cut.of_corner, x, y))
+      if (surface_.Area(f) > 0) bad.push_back(ids[f]);
+    std::vector<GridTriangle> grid(surface_.FaceCount());
+    uv.resize(surface_.FaceCount());
+    for (int h = 0; h < surface_.HalfEdgeCount(); ++h) {
+      const int v = cut.of_corner[h], k = 2 * (h % 3);
+      grid[h / 3][k] = x[v];
+      grid[h / 3][k + 1] = y[v];
+      uv[h / 3][k] = static_cast<float>(x[v] / kTexcoordGrid);
+      uv[h / 3][k + 1] = static_cast<float>(y[v] / kTexcoordGrid);
+    }
+    for (const auto& [i, j] : OverlappingPairs(grid, kMostOverlaps)) {
+      bad.push_back(ids[i]);
+      bad.push_back(ids[j]);
+    }
+    std::sort(bad.begin(), bad.end());
+    bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
+    return bad;
+  }
+
+  static constexpr size_t kMostOverlaps = 500'000;
+  static constexpr double kSlitGap = 1e-6;  // of the chart's size
+
+  const SurfaceGraph<MeshType>& surface_;
+  const Params& params_;
+  Progress& progress_;
+  bool all_disks_ = false;
+  std::vector<std::array<double, 6>>
+      wedge_;                  // of finished charts, each in its own frame, at the surface's scale
+  std::vector<State> state_;   // the same for all faces of a chart
+  std::vector<int> splits_;    // how often the face's chart was split because of overlaps
+  std::vector<char> cut_off_;  // the face belongs to a part that was cut off because of an overlap
+};
+
+}  // namespace dcharts

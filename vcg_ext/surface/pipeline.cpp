@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dcharts.h"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+
+#include "surface/atlas_figures.h"
+#include "surface/cut.h"
+#include "surface/fill.h"
+#include "surface/lloyd.h"
+#include "surface/merge.h"
+#include "surface/parameterize.h"
+#include "surface/straighten.h"
+#include "surface/workspace.h"
+
+namespace dcharts {
+
+// Compiled here once for each vcglib.
+template class Lloyd<SurfaceMesh>;
+template class HoleFiller<SurfaceMesh>;
+template class Straightener<SurfaceMesh>;
+template class Merger<SurfaceMesh>;
+template class ChartCutter<SurfaceMesh>;
+template class Parameterizer<SurfaceMesh>;
+
+namespace {
+
+/// A stage's place in the progress bar and its seconds in the report.
+class Stage {
+ public:
+  Stage(const char* name, const char* text, double from, double to, Progress& progress, Report& report)
+      : name_(name), report_(report), start_(std::chrono::steady_clock::now()) {
+    progress.BeginStage(text, from, to);
+  }
+  ~Stage() {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+    report_.stage_seconds.push_back({name_, passed.count()});
+  }
+
+ private:
+  const char* name_;
+  Report& report_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+void ReportCharts(const Workspace& work, const ChartIds& ids, Report& report) {
+  report.charts = ChartCount(ids);
+  report.unassigned_faces = static_cast<int>(std::count(ids.begin(), ids.end(), kUnassigned));
+  report.seam_length = SeamLength(work.Surface(), ChartBorders(work.Surface(), ids));
+}
+
+// What Segment, Fill, Straighten and Merge have in common.
+SurfaceChange ChartsWritten(const Workspace& work, const ChartIds& ids, SurfaceChange change) {
+  work.WriteCharts(ids, change);
+  change.remove_seams = true;
+  ReportCharts(work, ids, change.report);
+  return change;
+}
+
+void FinishAtlas(const Workspace& work, ChartIds& ids, SeamMask& seams, const Params& params,
+                 Progress& progress, double from, SurfaceChange& change) {
+  WedgeTexcoords uv;
+  {
+    Stage stage("parameterize", "Flattening charts...", from, 0.97, progress, change.report);
+    uv = Parameterizer<SurfaceMesh>(work.Surface(), params, progress).Run(ids, seams);
+  }
+  Stage stage("measure", "Measuring...", 0.97, 1, progress, change.report);
+  work.WriteCharts(ids, change);
+  work.WriteTexcoords(uv, change);
+  change.remove_seams = true;
+  ReportCharts(work, ids, change.report);
+  change.report.seam_length = SeamLength(work.Surface(), seams);
+  MeasureAtlas(work.Surface(), ids, uv, change.report);
+}
+
+}  // namespace
+
+SurfaceChange Segment(const SurfaceData& mesh, const Params& params, Progress& progress) {
+  const Workspace work(mesh);
+  SurfaceChange change;
+  Segmentation result;
+  {
+    Stage stage("segment", "Growing charts...", 0, 1, progress, change.report);
+    result = Lloyd<SurfaceMesh>(work.Surface(), params, progress).Run();
+  }
+  change.report.iterations = result.iterations;
+  return ChartsWritten(work, result.ids, std::move(change));
+}
+
+SurfaceChange Fill(const SurfaceData& mesh, const Params& params, Progress& progress) {
+  const Workspace work(mesh);
+  SurfaceChange change;
+  ChartIds ids = work.ReadCharts();
+  {
+    Stage stage("fill", "Filling holes...", 0, 1, progress, change.report);
+    HoleFiller<SurfaceMesh>(work.Surface(), params, progress).Run(ids);
+  }
+  return ChartsWritten(work, ids, std::move(change));
+}
+
+SurfaceChange Straighten(const SurfaceData& mesh, const Params& params, Progress& progress) {
+  const Workspace work(mesh);
+  SurfaceChange change;
+  ChartIds ids = work.ReadFilledCharts(progress);
+  {
+    Stage stage("straighten", "Straightening boundaries...", 0, 1, progress, change.report);
+    Straightener<SurfaceMesh>(work.Surface(), params, progress).Run(ids);
+  }
+  return ChartsWritten(work, ids, std::move(change));
+}
+
+SurfaceChange Merge(const SurfaceData& mesh, const Params& params, Progress& progress) {
+  const Workspace work(mesh);
+  SurfaceChange change;
+  ChartIds ids = work.ReadFilledCharts(progress);
+  {
+    Stage stage("merge", "Merging charts...", 0, 1, progress, change.report);
+    Merger<SurfaceMesh>(work.Surface(), params, progress).Run(ids);
+  }
+  return ChartsWritten(work, ids, std::move(change));
+}
+
+SurfaceChange Cut(const SurfaceData& mesh, const Params& params, Progress& progress) {
+  const Workspace work(mesh);
+  SurfaceChange change;
+  ChartIds ids = work.ReadFilledCharts(progress);
+  SeamMask seams;
+  {
+    Stage stage("cut", "Cutting darts...", 0, 1, progress, change.report);
+    change.report.darts = ChartCutter<SurfaceMesh>(work.Surface(), params, progress).Run(ids, seams);
+  }
+  work.WriteCharts(ids, change);
+  work.WriteSeams(seams, change);
+  work.WriteTexcoords(ProvisionalTexcoords(work.Surface(), seams), change);
+  if (params.seam_layer) work.WriteSeamLines(seams, change);
+  ReportCharts(work, ids, change.report);
+  change.report.seam_length = SeamLength(work.Surface(), seams);
+  return change;
+}
+
+SurfaceChange Parameterize(const SurfaceData& mesh, const Params& params, Progress& progress) {
+  const Workspace work(mesh);
+  SurfaceChange change;
+  ChartIds ids = work.ReadFilledCharts(progress);
+  SeamMask seams;
+  if (!work.ReadSeams(ids, seams)) {
+    progress.Log("No seams that fit the charts: cut as D-Charts: Cut does by default.");
+    const Params defaults;
+    change.report.darts = ChartCutter<SurfaceMesh>(work.Surface(), defaults, progress).Run(ids, seams);
+  }
+  FinishAtlas(work, ids, seams, params, progress, 0, change);
+  return change;
+}
+
+SurfaceChange TextureAtlas(const SurfaceData& mesh, const Params& params, Progress& progress) {
+  const Workspace work(mesh);
+  const auto& surface = work.Surface();
+  SurfaceChange change;
+  ChartIds ids;
+  SeamMask seams;
+  {
+    Stage stage("segment", "Growing charts...", 0, 0.3, progress, change.report);
+    Segmentation result = Lloyd<SurfaceMesh>(surface, params, progress).Run();
+    ids = std::move(result.ids);
+    change.report.iterations = result.iterations;
+  }
+  {
+    Stage stage("fill", "Filling holes...", 0.3, 0.35, progress, change.report);
+    HoleFiller<SurfaceMesh>(surface, params, progress).Run(ids);
+  }
+  {
+    Stage stage("straighten", "Straightening boundaries...", 0.35, 0.42, progress, change.report);
+    Straightener<SurfaceMesh>(surface, params, progress).Run(ids);
+  }
+  {
+    Stage stage("merge", "Merging charts...", 0.42, 0.45, progress, change.report);
+    Merger<SurfaceMesh>(surface, params, progress).Run(ids);
+  }
+  {
+    Stage stage("cut", "Cutting darts...", 0.45, 0.5, progress, change.report);
+    change.report.darts = ChartCutter<SurfaceMesh>(surface, params, progress).Run(ids, seams);
+  }
+  FinishAtlas(work, ids, seams, params, progress, 0.5, change);
+  if (params.seam_layer) work.WriteSeamLines(seams, change);
+  return change;
+}
+
+SurfaceChange Measure(const SurfaceData& mesh, const Params&, Progress& progress) {
+  const Workspace work(mesh);
+  SurfaceChange change;
+  Stage stage("measure", "Measuring...", 0, 1, progress, change.report);
+  if (!work.HasTexcoords()) {
+    progress.Log("The mesh has no wedge texture coordinates: only its charts are measured.");
+    ReportCharts(work, work.ReadCharts(), change.report);
+    return change;
+  }
+  const SeamMask seams = work.TextureSeams();
+  const WedgeTexcoords uv = work.ReadTexcoords();
+  ChartIds ids(work.Surface().FaceCount(), 0);
+  SplitAndCompact(work.Surface(), ids, &seams);
+  ReportCharts(work, ids, change.report);
+  change.report.seam_length = SeamLength(work.Surface(), seams);
+  int outside = 0;
+  for (const auto& t : uv)
+    outside += std::any_of(t.begin(), t.end(), [](float x) { return !(x >= 0 && x <= 1); });
+  if (outside > 0) progress.Log(std::to_string(outside) + " faces have texture coordinates outside [0,1].");
+  MeasureAtlas(work.Surface(), ids, uv, change.report);
+  return change;
+}
+
+}  // namespace dcharts

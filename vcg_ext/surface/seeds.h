@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "common/params.h"
+#include "planar/cone_proxy.h"
+#include "surface/charts.h"
+#include "surface/dual_distance.h"
+
+namespace dcharts {
+
+/// A chart while it grows.
+struct GrowingChart {
+  int seed = 0;
+  ConeProxy proxy;
+};
+
+/// Seeds and proxies of charts (Section 3.1, "Initialization" and "Finding new proxies and seeds").
+template <class MeshType>
+class Seeds {
+ public:
+  explicit Seeds(const SurfaceGraph<MeshType>& surface) : surface_(surface), distance_(surface) {}
+
+  /// `count` seeds by the farthest-point algorithm, the first at an extremity (the face farthest from the
+  /// centroid of the surface); each of the next is the face farthest from the seeds so far. Components
+  /// without a seed come first.
+  std::vector<GrowingChart> FarthestPoints(int count) {
+    count = std::min(count, surface_.FaceCount());
+    auto everywhere = [](int) { return true; };
+    std::vector<GrowingChart> charts;
+    int next = Extremity();
+    for (int i = 0; i < count; ++i) {
+      if (i == 0)
+        distance_.Run({next}, everywhere);
+      else
+        distance_.Extend({next}, everywhere);
+      charts.push_back({next, ProxyAtSeed(next)});
+      next = Farthest();
+      if (distance_[next] <= 0) break;
+    }
+    return charts;
+  }
+
+  /// The best of the proxies of the three vertex rings of the seed: the one that fits the seed best.
+  ConeProxy ProxyAtSeed(int seed) const {
+    ConeProxy best;
+    double best_error = 1e30;
+    for (int i = 0; i < 3; ++i) {
+      const int v = surface_.Vertex(3 * seed + i);
+      NormalMoments moments;
+      for (const int* h = surface_.RingBegin(v); h != surface_.RingEnd(v); ++h)
+        moments.Add(surface_.Area(*h / 3), surface_.Normal(*h / 3));
+      const ConeProxy proxy = FitCone(moments);
+      const double error = FittingError(proxy, surface_.Normal(seed));
+      if (error < best_error) {
+        best_error = error;
+        best = proxy;
+      }
+    }
+    return best;
+  }
+
+  /// Proxy by Eq. 3 and seed (the most central of the best-fitting faces) of the chart made of `faces` (not
+  /// empty).
+  GrowingChart Refit(const std::vector<int>& faces, const Params& params) const {
+    NormalMoments moments;
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (int f : faces) {
+      moments.Add(surface_.Area(f), surface_.Normal(f));
+      centre += surface_.Area(f) * surface_.Centroid(f);
+    }
+    GrowingChart chart;
+    chart.proxy = FitCone(moments);
+    chart.seed = faces.front();
+    if (!(moments.area > 0)) return chart;
+    centre /= moments.area;
+
+    const auto share = static_cast<size_t>(params.seed_percent / 100 * static_cast<double>(faces.size()));
+    const size_t candidates = std::min(faces.size(), std::max<size_t>(params.seed_candidates, share));
+    errors_.resize(faces.size());
+    for (size_t k = 0; k < faces.size(); ++k)
+      errors_[k] = FittingError(chart.proxy, surface_.Normal(faces[k]));
+    sorted_ = errors_;
+    std::nth_element(sorted_.begin(), sorted_.begin() + (candidates - 1), sorted_.end());
+    // Equal errors are common (a plane: all are 0), so every face that ties with the k-th takes part.
+    const double bound = sorted_[candidates - 1] + 1e-12;
+    double nearest = 1e300;
+    for (size_t k = 0; k < faces.size(); ++k) {
+      if (errors_[k] > bound || surface_.Area(faces[k]) <= 0) continue;
+      const double d = (surface_.Centroid(faces[k]) - centre).squaredNorm();
+      if (d < nearest) {
+        nearest = d;
+        chart.seed = faces[k];
+      }
+    }
+    return chart;
+  }
+
+ private:
+  int Extremity() const {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (int f = 0; f < surface_.FaceCount(); ++f) centre += surface_.Area(f) * surface_.Centroid(f);
+    centre /= surface_.TotalArea();
+    int best = 0;
+    double farthest = -1;
+    for (int f = 0; f < surface_.FaceCount(); ++f) {
+      const double d = (surface_.Centroid(f) - centre).squaredNorm();
+      if (surface_.Area(f) > 0 && d > farthest) {
+        farthest = d;
+        best = f;
+      }
+    }
+    return best;
+  }
+
+  int Farthest() const {
+    int best = 0;
+    double farthest = -1;
+    for (int f = 0; f < surface_.FaceCount(); ++f)
+      if (surface_.Area(f) > 0 && distance_[f] > farthest) {
+        farthest = distance_[f];
+        best = f;
+      }
+    return best;
+  }
+
+  const SurfaceGraph<MeshType>& surface_;
+  DualDistance<MeshType> distance_;
+  mutable std::vector<double> errors_, sorted_;
+};
+
+}  // namespace dcharts

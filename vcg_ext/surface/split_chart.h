@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "surface/chart_patch.h"
+
+namespace dcharts {
+
+/// Parts a chart so that faces that overlap in the plane come to different sides, by the shortest seam
+/// (min-cut over edge lengths). `overlaps`: pairs of local faces, not empty. Returns per local face 0 or 1;
+/// both occur.
+std::vector<int> SplitAtOverlaps(const ChartPatch& patch, const std::vector<std::pair<int, int>>& overlaps);
+
+/// Parts a chart of two or more faces between two far faces, by the shortest seam about half-way.
+std::vector<int> Bisect(const ChartPatch& patch);
+
+}  // namespace dcharts
