@@ -49,14 +49,14 @@ private() {
 }
 
 # The mirror from which this machine gets Debian: that of its own release, else any that looks like one.
+# Asks apt for the addresses it would use, which needs neither a network nor root.
 find_mirror() {
   local codename
   codename=$(. /etc/os-release && echo "${VERSION_CODENAME:-}")
-  apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(CREATED_BY)' 2>/dev/null |
+  apt-get update --print-uris 2>/dev/null | sed -n "s|^'\(.*\)/dists/\(.*\)/InRelease'.*|\1 \2|p" |
     awk -v release="$codename" '
-      $3 != "Packages" { next }
       $2 == release && !own { own = $1 }
-      $1 ~ /\/debian\/?$/ && !other { other = $1 }
+      $1 ~ /\/debian$/ && !other { other = $1 }
       END { print own ? own : other }'
 }
 
