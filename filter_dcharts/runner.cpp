@@ -109,14 +109,13 @@ std::vector<Figure> Figures(const Report& report) {
   add("overlapping_faces", report.overlapping_faces);
   add("packing_efficiency", report.packing_efficiency);
   add("seconds", report.seconds);
+  for (const auto& [stage, seconds] : report.stage_seconds) figures.emplace_back("seconds_" + stage, seconds);
   return figures;
 }
 
 std::vector<std::string> LogLines(const Report& report) {
   std::vector<std::string> lines;
   for (const auto& [name, value] : Figures(report)) lines.push_back(name + ": " + FigureText(value));
-  for (const auto& [stage, seconds] : report.stage_seconds)
-    lines.push_back("seconds of " + stage + ": " + NumberText(seconds));
   return lines;
 }
 

@@ -27,10 +27,10 @@ SurfaceChange RunFilter(const FilterSpec& filter, const SurfaceData* mesh, const
 /// A figure under its public name.
 using Figure = std::pair<std::string, std::variant<int, double>>;
 
-/// The figures that the report knows.
+/// The figures that the report knows, the seconds of a stage as seconds_STAGE.
 std::vector<Figure> Figures(const Report& report);
 
-/// The figures and the seconds per stage as lines for the log.
+/// The figures as lines for the log.
 std::vector<std::string> LogLines(const Report& report);
 
 /// The double that is written the way the float is: hosts hand over 0.2 as a float, which is 0.2000000030 as

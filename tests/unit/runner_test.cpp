@@ -157,11 +157,12 @@ TEST(Runner, ReportsTheFiguresThatAreKnown) {
   report.charts = 12;
   report.l2_stretch = 1.0025;
   report.linf_stretch = kInfinity;
-  report.stage_seconds = {{"Fill", 0.25}};
-  const std::vector<Figure> expected = {{"charts", 12}, {"l2_stretch", 1.0025}, {"linf_stretch", kInfinity}};
+  report.stage_seconds = {{"fill", 0.25}};
+  const std::vector<Figure> expected = {
+      {"charts", 12}, {"l2_stretch", 1.0025}, {"linf_stretch", kInfinity}, {"seconds_fill", 0.25}};
   EXPECT_EQ(Figures(report), expected);
   const std::vector<std::string> lines = {"charts: 12", "l2_stretch: 1.0025", "linf_stretch: inf",
-                                          "seconds of Fill: 0.25"};
+                                          "seconds_fill: 0.25"};
   EXPECT_EQ(LogLines(report), lines);
 }
 
