@@ -13,6 +13,9 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release, RelWithDebInfo" FORCE)
 endif()
 
+# Eigen's own threads would make sums depend on their number.
+add_compile_definitions(EIGEN_DONT_PARALLELIZE)
+
 add_library(dcharts_options INTERFACE)
 if(MSVC)
   target_compile_options(dcharts_options INTERFACE /W4 /permissive- /fp:precise)
