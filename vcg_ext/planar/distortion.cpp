@@ -45,6 +45,15 @@ void StretchFigures::Add(const TriangleStretch& triangle, double area_floor) {
   largest_ = std::max(largest_, large);
 }
 
+void StretchFigures::Scale(double surface_area_factor, double uv_area_factor) {
+  const double square = surface_area_factor / uv_area_factor;
+  surface_area_ *= surface_area_factor;
+  uv_area_ *= uv_area_factor;
+  squares_ *= surface_area_factor * square;
+  shear_ *= surface_area_factor;
+  largest_ *= std::sqrt(square);
+}
+
 double StretchFigures::L2() const {
   if (flipped_ > 0) return std::numeric_limits<double>::infinity();
   if (!(surface_area_ > 0)) return 1;
@@ -62,18 +71,24 @@ double StretchFigures::Shear() const { return surface_area_ > 0 ? shear_ / surfa
 StretchFigures MeasureStretch(const ChartMesh& chart, const Points2& uv) {
   StretchFigures figures;
   if (chart.triangles.rows() == 0) return figures;
-  const Eigen::RowVector3d extent =
-      chart.positions.colwise().maxCoeff() - chart.positions.colwise().minCoeff();
-  const double area_floor = kAreaFloor * extent.squaredNorm();
+  // Measured at a size near 1, so that areas neither over- nor underflow.
+  const Eigen::RowVector3d box = chart.positions.colwise().maxCoeff() - chart.positions.colwise().minCoeff();
+  const Eigen::RowVector2d uv_box = uv.colwise().maxCoeff() - uv.colwise().minCoeff();
+  const auto size_or_one = [](double size) { return size > 0 && std::isfinite(size) ? size : 1.0; };
+  const double size = size_or_one(box.maxCoeff()), uv_size = size_or_one(uv_box.maxCoeff());
+  const double area_floor = kAreaFloor * (box / size).squaredNorm();
   Eigen::Matrix3d corners;
   Eigen::Matrix<double, 3, 2> flat;
   for (Eigen::Index t = 0; t < chart.triangles.rows(); ++t) {
+    const Eigen::RowVector3d origin = chart.positions.row(chart.triangles(t, 0));
+    const Eigen::RowVector2d uv_origin = uv.row(chart.triangles(t, 0));
     for (int k = 0; k < 3; ++k) {
-      corners.row(k) = chart.positions.row(chart.triangles(t, k));
-      flat.row(k) = uv.row(chart.triangles(t, k));
+      corners.row(k) = (chart.positions.row(chart.triangles(t, k)) - origin) / size;
+      flat.row(k) = (uv.row(chart.triangles(t, k)) - uv_origin) / uv_size;
     }
     figures.Add(StretchOfTriangle(corners, flat), area_floor);
   }
+  figures.Scale(size * size, uv_size * uv_size);
   return figures;
 }
 

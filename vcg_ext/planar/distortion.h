@@ -21,6 +21,9 @@ class StretchFigures {
   /// Triangles with an area below `area_floor` count nowhere.
   void Add(const TriangleStretch& triangle, double area_floor);
 
+  /// For figures added in other units: both areas times these factors.
+  void Scale(double surface_area_factor, double uv_area_factor);
+
   double SurfaceArea() const { return surface_area_; }
   double UvArea() const { return uv_area_; }  ///< of the triangles that count, sum of |area|
   int FlippedOrDegenerate() const { return flipped_; }

@@ -28,28 +28,34 @@ constexpr double kGoodStart = 2;     // a start from angles above it is compared
 constexpr double kNewtonWorks = 3;   // above it Newton steps crawl and reweighted ones don't
 constexpr int kReweightedBlock = 3;  // steps
 constexpr int kMaxBlocks = 40;
+constexpr double kBlockGain = 0.05;  // share of the energy; a block that gains less is the last
 
-// The chart at the origin, with a surface area of 1. `scale` receives sqrt(area) in model units; it is zero
-// when no triangle has an area.
-ChartMesh Normalized(const ChartMesh& chart, double& scale) {
-  ChartMesh normalized = chart;
-  const Eigen::RowVector3d low = chart.positions.colwise().minCoeff();
-  const Eigen::RowVector3d high = chart.positions.colwise().maxCoeff();
-  const Eigen::RowVector3d middle = 0.5 * low + 0.5 * high;
-  const double extent = (0.5 * high - 0.5 * low).maxCoeff();
-  scale = 0;
-  if (!(extent > 0)) return normalized;
-  normalized.positions = (chart.positions.rowwise() - middle) / extent;
+// A chart at the origin with a surface area of 1, and what it was in model units.
+struct NormalizedChart {
+  ChartMesh mesh;
+  double extent = 0;  // half the longest side of the bounding box
+  double scale = 0;   // sqrt(area); zero when no triangle has an area
+};
+
+NormalizedChart Normalized(const ChartMesh& chart) {
+  NormalizedChart normalized;
+  normalized.mesh = chart;
+  Points3& positions = normalized.mesh.positions;
+  const Eigen::RowVector3d low = positions.colwise().minCoeff(), high = positions.colwise().maxCoeff();
+  normalized.extent = (0.5 * high - 0.5 * low).maxCoeff();
+  if (!(normalized.extent > 0)) return normalized;
+  positions = ((positions.rowwise() - (0.5 * low + 0.5 * high)) / normalized.extent).eval();
   double area = 0;
   for (Eigen::Index t = 0; t < chart.triangles.rows(); ++t) {
-    const Eigen::RowVector3d a = normalized.positions.row(chart.triangles(t, 0));
-    const Eigen::Vector3d e1 = (normalized.positions.row(chart.triangles(t, 1)) - a).transpose();
-    const Eigen::Vector3d e2 = (normalized.positions.row(chart.triangles(t, 2)) - a).transpose();
+    const Eigen::RowVector3d corner = positions.row(chart.triangles(t, 0));
+    const Eigen::Vector3d e1 = (positions.row(chart.triangles(t, 1)) - corner).transpose();
+    const Eigen::Vector3d e2 = (positions.row(chart.triangles(t, 2)) - corner).transpose();
     area += 0.5 * e1.cross(e2).norm();
   }
-  if (!(area > 0)) return normalized;
-  normalized.positions /= std::sqrt(area);
-  scale = extent * std::sqrt(area);
+  constexpr double kNoArea = 1e-14;  // in units of the extent: what rounding makes of a straight line
+  if (!(area > kNoArea)) return normalized;
+  positions /= std::sqrt(area);
+  normalized.scale = normalized.extent * std::sqrt(area);
   return normalized;
 }
 
@@ -108,9 +114,9 @@ void MinimizeSymmetricDirichlet(const Triangles& triangles, const RestShapes& sh
     const double before = energy;
     energy =
         Descend(dirichlet, {StepKind::kReweighted, kReweightedBlock, 0}, triangles, shapes, system, poll, uv);
-    if (energy > 0.99 * before) break;
+    if (energy > (1 - kBlockGain) * before) break;
   }
-  Descend(dirichlet, {StepKind::kProjectedNewton, 60, 1e-3}, triangles, shapes, system, poll, uv);
+  Descend(dirichlet, {StepKind::kProjectedNewton, 60, 1e-2}, triangles, shapes, system, poll, uv);
 }
 
 Points2 ToPoints(const PlanePoints& uv, double factor) {
@@ -166,9 +172,45 @@ void LowerWorstStretch(const ChartMesh& chart, RestShapes& shapes, VertexBlockSy
   }
 }
 
+// Moves triangles that would flip when texture coordinates are rounded to float32 apart, as far as that goes.
+void MakeSafeForFloat32(const Triangles& triangles, RestShapes& shapes, VertexBlockSystem& system,
+                        const Poll& poll, PlanePoints& uv) {
+  double weight = 1e-2;
+  for (int round = 0; round < 5 && ThickenThinTriangles(triangles, uv, weight, shapes) > 0; ++round) {
+    RelaxSlivers(triangles, uv, shapes);
+    Descend({Kind::kSander}, {StepKind::kProjectedNewton, 8, 1e-3}, triangles, shapes, system, poll, uv);
+    weight *= 10;
+  }
+}
+
+bool AllAreasPositive(const Triangles& triangles, const Points2& uv) {
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const auto corner = [&](int i) { return uv.row(triangles(t, (k + i) % 3)); };
+      const Eigen::RowVector2d e1 = corner(1) - corner(0), e2 = corner(2) - corner(0);
+      if (!(e1.x() * e2.y() - e1.y() * e2.x() > 0)) return false;
+    }
+  }
+  return uv.allFinite();
+}
+
 Flattening Failure(const std::string& why) {
   Flattening result;
   result.why = why;
+  return result;
+}
+
+// A chart without area has no shape to keep: any map without flips will do, far smaller than the chart is
+// long.
+Flattening FlattenWithoutArea(const ChartMesh& chart, double extent) {
+  constexpr double kSize = 1e-6;
+  std::optional<PlanePoints> uv = StartFromTutte(chart);
+  Flattening result;
+  if (uv) result.uv = ToPoints(*uv, extent > 0 ? kSize * extent : 1.0);
+  result.ok = uv && AllAreasPositive(chart.triangles, result.uv);
+  if (!result.ok)
+    return Failure("The chart has no area, and no flat start without flipped triangles was found.");
+  result.l2_stretch = result.linf_stretch = 1;
   return result;
 }
 
@@ -177,31 +219,33 @@ Flattening Failure(const std::string& why) {
 Flattening Flatten(const ChartMesh& chart, const FlattenOptions& options, const Poll& poll) {
   std::string why = WhyNotAChart(chart);
   if (!why.empty()) return Failure(why);
-  double scale = 0;
-  const ChartMesh normalized = Normalized(chart, scale);
-  if (!(scale > 0) || !std::isfinite(scale)) return Failure("The chart has no area.");
+  const NormalizedChart normalized = Normalized(chart);
+  if (!(normalized.scale > 0)) return FlattenWithoutArea(chart, normalized.extent);
   if (poll) poll();
 
   const Triangles& triangles = chart.triangles;
-  RestShapes shapes = RestShapesOf(normalized);
+  RestShapes shapes = RestShapesOf(normalized.mesh);
   VertexBlockSystem system(static_cast<int>(chart.positions.rows()), triangles);
   PlanePoints uv;
-  const double energy = Start(normalized, shapes, system, poll, uv);
+  const double energy = Start(normalized.mesh, shapes, system, poll, uv);
   if (!std::isfinite(energy)) {
     return Failure("No flat start without flipped triangles was found: the chart has to be cut.");
   }
   MinimizeSymmetricDirichlet(triangles, shapes, energy, system, poll, uv);
   RelaxSlivers(triangles, uv, shapes);
   Descend({Kind::kSander}, {StepKind::kProjectedNewton, 15, 1e-4}, triangles, shapes, system, poll, uv);
-  if (options.linf_finish) LowerWorstStretch(normalized, shapes, system, poll, uv);
+  if (options.linf_finish) LowerWorstStretch(normalized.mesh, shapes, system, poll, uv);
+  MakeSafeForFloat32(triangles, shapes, system, poll, uv);
 
   Flattening result;
-  result.uv = ToPoints(uv, 1.0);
-  const StretchFigures figures = MeasureStretch(normalized, result.uv);
-  if (figures.FlippedOrDegenerate() > 0) return Failure("The flattening lost a triangle to rounding.");
+  const StretchFigures figures = MeasureStretch(normalized.mesh, ToPoints(uv, 1.0));
+  const double to_surface_area = std::sqrt(figures.SurfaceArea() / figures.UvArea());
+  result.uv = ToPoints(uv, normalized.scale * to_surface_area);
+  if (figures.FlippedOrDegenerate() > 0 || !AllAreasPositive(triangles, result.uv)) {
+    return Failure("Triangles are too small to be flattened without a flip: the chart has to be cut.");
+  }
   result.l2_stretch = figures.L2();
   result.linf_stretch = figures.Linf();
-  result.uv = ToPoints(uv, scale * std::sqrt(figures.SurfaceArea() / figures.UvArea()));
   result.ok = true;
   return result;
 }

@@ -14,6 +14,50 @@ constexpr double kTiny = 1e-4;            // longest edge / sqrt(mean area) belo
 constexpr double kSmall = 1e-2;           // area / mean area up to which a thin triangle counts as a sliver:
                                           // a rod of long thin triangles has real shapes to keep
 constexpr double kSliverWeight = 1e-3;    // of the mean weight
+// Texture coordinates of a chart that fills the unit square are rounded by up to 3e-8 in float32, and its
+// share of an atlas is smaller. Both relative to the chart's extent; rest shapes aim higher than what must be
+// reached.
+constexpr double kWantedHeight = 8e-6;
+constexpr double kNeededHeight = 2e-6;
+
+struct Triangle {
+  Complex corner[3];
+  int base = 0;  // the longest edge runs from this corner to the next
+  double longest = 0, height = 0;
+};
+
+Triangle TriangleIn(const PlanePoints& uv, const Triangles& triangles, Eigen::Index t) {
+  Triangle triangle;
+  for (int k = 0; k < 3; ++k) triangle.corner[k] = uv[static_cast<std::size_t>(triangles(t, k))];
+  for (int k = 0; k < 3; ++k) {
+    const double length = std::abs(triangle.corner[(k + 1) % 3] - triangle.corner[k]);
+    if (length > triangle.longest) triangle.longest = length, triangle.base = k;
+  }
+  const Complex* c = triangle.corner;
+  triangle.height = Cross(c[1] - c[0], c[2] - c[0]) / triangle.longest;
+  return triangle;
+}
+
+// Its shape, at least as high as `height` over its longest edge.
+RestShape ThickShape(Triangle triangle, double height) {
+  Complex* c = triangle.corner;
+  const int base = triangle.base, next = (base + 1) % 3, apex = (base + 2) % 3;
+  const Complex along = (c[next] - c[base]) / triangle.longest;
+  if (triangle.longest < height) c[next] = c[base] + along * height;
+  if (triangle.height < height) c[apex] += Complex(0, 1) * along * (height - triangle.height);
+  return ShapeFromCorners(c[0], c[1], c[2]);
+}
+
+double Extent(const PlanePoints& uv) {
+  double low[2] = {uv[0].real(), uv[0].imag()}, high[2] = {low[0], low[1]};
+  for (const Complex& z : uv) {
+    low[0] = std::min(low[0], z.real());
+    low[1] = std::min(low[1], z.imag());
+    high[0] = std::max(high[0], z.real());
+    high[1] = std::max(high[1], z.imag());
+  }
+  return std::max(high[0] - low[0], high[1] - low[1]);
+}
 
 }  // namespace
 
@@ -31,7 +75,9 @@ RestShape ShapeFromCorners(const Complex& r0, const Complex& r1, const Complex& 
 RestShapes RestShapesOf(const ChartMesh& chart) {
   const Eigen::Index count = chart.triangles.rows();
   const double mean_area = 1.0 / static_cast<double>(count);
-  const double smallest_edge = kTiny * std::sqrt(mean_area);
+  const Eigen::RowVector3d size = chart.positions.colwise().maxCoeff() - chart.positions.colwise().minCoeff();
+  const double wanted_height = kWantedHeight * size.maxCoeff();
+  const double smallest_edge = std::max(kTiny * std::sqrt(mean_area), wanted_height);
   RestShapes shapes(static_cast<std::size_t>(count));
   for (Eigen::Index t = 0; t < count; ++t) {
     Eigen::Vector3d corner[3];
@@ -52,14 +98,14 @@ RestShapes RestShapesOf(const ChartMesh& chart) {
       height = twice_area / longest;
       const bool tiny = longest < smallest_edge;
       const bool thin = height < kThin * longest && 0.5 * twice_area < kSmall * mean_area;
-      sliver = tiny || thin || height < kHopelesslyThin * longest;
+      sliver = tiny || thin || height < kHopelesslyThin * longest || height < wanted_height;
       if (tiny) {
         const double grow = smallest_edge / longest;
         foot *= grow;
         height *= grow;
         longest = smallest_edge;
       }
-      if (sliver) height = std::max(height, kThin * longest);
+      if (sliver) height = std::max({height, kThin * longest, wanted_height});
     } else {
       longest = smallest_edge;
     }
@@ -76,16 +122,29 @@ RestShapes RestShapesOf(const ChartMesh& chart) {
 }
 
 void RelaxSlivers(const Triangles& triangles, const PlanePoints& uv, RestShapes& shapes) {
+  const double wanted_height = kWantedHeight * Extent(uv);
   for (std::size_t t = 0; t < shapes.size(); ++t) {
     if (!shapes[t].sliver) continue;
-    const auto corner = [&](int k) {
-      return uv[static_cast<std::size_t>(triangles(static_cast<Eigen::Index>(t), k))];
-    };
-    RestShape relaxed = ShapeFromCorners(corner(0), corner(1), corner(2));
+    RestShape relaxed = ThickShape(TriangleIn(uv, triangles, static_cast<Eigen::Index>(t)), wanted_height);
     relaxed.weight = shapes[t].weight;
     relaxed.sliver = true;
     shapes[t] = relaxed;
   }
+}
+
+int ThickenThinTriangles(const Triangles& triangles, const PlanePoints& uv, double weight,
+                         RestShapes& shapes) {
+  const double extent = Extent(uv);
+  int count = 0;
+  for (std::size_t t = 0; t < shapes.size(); ++t) {
+    const Triangle triangle = TriangleIn(uv, triangles, static_cast<Eigen::Index>(t));
+    if (triangle.height >= kNeededHeight * extent) continue;
+    shapes[t] = ThickShape(triangle, kWantedHeight * extent);
+    shapes[t].weight = weight / static_cast<double>(shapes.size());
+    shapes[t].sliver = true;
+    ++count;
+  }
+  return count;
 }
 
 }  // namespace dcharts

@@ -22,10 +22,17 @@ using RestShapes = std::vector<RestShape>;
 RestShape ShapeFromCorners(const Complex& r0, const Complex& r1, const Complex& r2);
 
 /// Rest shapes of the chart's triangles, which must have a total area of about 1. Triangles too thin or too
-/// small to give a direction get a floored height or size, a small weight, and are marked as slivers.
+/// small to give a direction, or to keep their orientation in float32, get a floored height or size and a
+/// small weight, and are marked as slivers.
 RestShapes RestShapesOf(const ChartMesh& chart);
 
-/// Lets every sliver be content with the shape it has in `uv`, where it must have a positive area.
+/// Lets every sliver be content with the shape it has in `uv`, where it must have a positive area, if only
+/// that is not too thin for float32.
 void RelaxSlivers(const Triangles& triangles, const PlanePoints& uv, RestShapes& shapes);
+
+/// Makes slivers with the given weight (1 = that of a mean triangle) of the triangles too thin in `uv` to
+/// keep their orientation in float32, with thicker rest shapes; returns their number.
+int ThickenThinTriangles(const Triangles& triangles, const PlanePoints& uv, double weight,
+                         RestShapes& shapes);
 
 }  // namespace dcharts
