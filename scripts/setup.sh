@@ -104,7 +104,7 @@ ensure_plugin() {
   local hash stamp=$venv/dcharts-plugin.sha256 requirements
   ensure_venv
   hash=$(plugin_inputs_hash)
-  if [ "$hash" = "$(cat "$stamp" 2>/dev/null)" ] && [ -n "$("$python" -m pip list 2>/dev/null | grep -i '^pymeshlab.dcharts')" ]; then
+  if [ "$hash" = "$(cat "$stamp" 2>/dev/null)" ] && [ -z "$(unmet_requirements pymeshlab-dcharts)" ]; then
     return 0
   fi
   mapfile -t requirements < <(plugin_requirements)
@@ -113,7 +113,8 @@ ensure_plugin() {
   rm -f "$stamp"
   # Without isolation the build tools are those of .venv, so that a rebuild needs no network.
   local log=$venv/dcharts-build.log
-  if ! "$python" -m pip install -v --disable-pip-version-check --no-build-isolation --no-deps --force-reinstall "$repo" >"$log" 2>&1; then
+  if ! "$python" -m pip install -v --disable-pip-version-check --no-build-isolation --no-deps --force-reinstall \
+    --config-settings=build-dir="$repo/build-python" "$repo" >"$log" 2>&1; then
     grep -E 'error|Error|fetch-meshlab' "$log" | tail -n 15 >&2
     fail "The plugin could not be built. The whole log is in $log"
   fi

@@ -59,7 +59,7 @@ def light(colors, normals, view, depth, size):
     def lamp(*towards):
         return np.clip(eye @ (np.array(towards) / np.linalg.norm(towards)), 0, None)
 
-    diffuse = 0.50 + 0.13 * eye[..., 1] + 0.44 * lamp(-0.45, 0.65, 0.7) + 0.14 * lamp(0.9, 0.1, 0.5)
+    diffuse = 0.56 + 0.10 * eye[..., 1] + 0.40 * lamp(-0.45, 0.65, 0.7) + 0.14 * lamp(0.9, 0.1, 0.5)
     half = np.array([-0.45, 0.65, 0.7]) / np.linalg.norm([-0.45, 0.65, 0.7]) + [0, 0, 1]
     gloss = 0.13 * lamp(*half) ** 40
     shadow = 1 - 0.5 * hollow_shadow(depth, size)
