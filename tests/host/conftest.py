@@ -8,6 +8,7 @@ import pytest
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
 from cases import ROOT  # noqa: E402
+from forky import root_folder  # noqa: E402
 from hosts import Meshlab2020, NotHere  # noqa: E402
 from xsession import XSession, missing_tools  # noqa: E402
 
@@ -28,6 +29,15 @@ def meshlab_2020(tmp_path_factory):
     """A MeshLab 2020.09 with the plugin in it."""
     try:
         return Meshlab2020(tmp_path_factory.mktemp('meshlab-2020'))
+    except NotHere as reason:
+        pytest.skip(str(reason))
+
+
+@pytest.fixture(scope='session')
+def forky():
+    """The folder of a Debian forky with MeshLab 2025.07."""
+    try:
+        return root_folder()
     except NotHere as reason:
         pytest.skip(str(reason))
 

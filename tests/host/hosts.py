@@ -38,7 +38,7 @@ def source_tree(version):
     return tree
 
 
-def install(path=None, home=None, *options):
+def install(*options, path=None, home=None):
     """Runs scripts/install-meshlab.sh for the MeshLab first on `path`, or the one in the home folder `home`."""
     env = dict(os.environ)
     if path:

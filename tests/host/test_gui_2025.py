@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The GUI of MeshLab 2025.07 (float): does it take the plugin, and what is then to be seen."""
+import shutil
+import tempfile
+
+import pytest
+
+from forky import inside
+from hosts import install
+from meshlab_gui import MeshlabGui
+
+
+@pytest.fixture(scope='module')
+def home(forky):
+    """A home folder in forky's own tree, as MeshLab leaves it after its first start, with the plugin installed."""
+    folder = tempfile.mkdtemp(prefix='home-', dir=forky / 'root')
+    home = forky / 'root' / folder
+    plugins = home / '.local/share/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins/2025.07'
+    plugins.mkdir(parents=True)
+    run = install(home=home)
+    assert run.returncode == 0, run.stderr
+    assert (plugins / 'libfilter_dcharts_2025.so').exists(), run.stdout
+    yield home
+    shutil.rmtree(home)
+
+
+def test_texture_atlas_colors_the_charts(screen, forky, home, plush, screenshots):
+    shutil.copy(plush, home / 'plush.ply')
+    at_home = '/' + str(home.relative_to(forky))
+    gui = MeshlabGui(screen, inside(forky, 'meshlab'), f'{at_home}/plush.ply',
+                     env={'HOME': at_home, 'XDG_RUNTIME_DIR': at_home})
+    try:
+        before = gui.colors()
+        try:
+            gui.apply('D-Charts: Texture Atlas')
+        finally:
+            screen.save_screen(screenshots / '2025 D-Charts Texture Atlas.png')
+        assert gui.has_line(r'\bcharts\b\W+[0-9]'), gui.output[-2000:]
+        assert gui.colors() >= before + 3, 'no coloured charts on the screen'
+    finally:
+        gui.close()
