@@ -13,8 +13,8 @@ python=$venv/bin/python
 build=$repo/build
 
 # What building the plugin and running it in pymeshlab takes on a bare Debian 12.
-build_packages=(build-essential cmake ninja-build python3-venv python3-dev ca-certificates xz-utils dpkg-dev
-  qtbase5-dev libqt5opengl5-dev libeigen3-dev libboost-dev libglew-dev libglu1-mesa-dev libgl1 libopengl0)
+build_packages=(build-essential cmake ninja-build python3-venv ca-certificates qtbase5-dev libqt5opengl5-dev libeigen3-dev
+  libboost-dev libglew-dev libglu1-mesa-dev libgl1 libopengl0)
 
 say() { printf '%s\n' "$*" >&2; }
 fail() {
@@ -109,7 +109,7 @@ ensure_plugin() {
   fi
   mapfile -t requirements < <(plugin_requirements)
   ensure_venv "${requirements[@]}"
-  say "Building the plugin (a few minutes the first time)"
+  say "Building the plugin for pymeshlab (a few minutes the first time)"
   rm -f "$stamp"
   # Without isolation the build tools are those of .venv, so that a rebuild needs no network.
   local log=$venv/dcharts-build.log

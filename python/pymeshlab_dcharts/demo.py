@@ -106,16 +106,17 @@ def run(mesh_path, folder):
     figures = getattr(ms, FILTER)()
     watch.step("texture_atlas")
 
+    mesh = ms.current_mesh()
+    model = Model(mesh.vertex_matrix(), mesh.face_matrix(), mesh.face_scalar_array(), mesh.wedge_tex_coord_matrix(),
+                  mesh.face_color_matrix()[:, :3])
     ms.save_current_mesh(str(folder / "segmented.ply"), save_face_quality=True, save_face_color=True)
-    ms.save_current_mesh(str(folder / "atlas.obj"), save_wedge_texcoord=True, save_vertex_color=False, save_face_color=False,
-                         save_textures=False)
+    # MeshLab writes one material per face colour; an atlas is one material with one texture.
+    ms.set_color_per_face(color1=pymeshlab.Color(255, 255, 255))
+    ms.save_current_mesh(str(folder / "atlas.obj"), save_wedge_texcoord=True, save_textures=False)
     checker_image().save(folder / TEXTURE)
     use_texture(folder / "atlas.obj.mtl", TEXTURE)
     watch.step("write")
 
-    mesh = ms.current_mesh()
-    model = Model(mesh.vertex_matrix(), mesh.face_matrix(), mesh.face_scalar_array(), mesh.wedge_tex_coord_matrix(),
-                  mesh.face_color_matrix()[:, :3])
     title = summary(mesh_path.stem, figures)
     charts_picture(model, title).save(folder / "charts.png")
     atlas_picture(model, title).save(folder / "atlas.png")

@@ -43,7 +43,8 @@ class Model:
         corners = self.vertices[self.faces]
         self.areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
         self.normals = corner_normals(self.vertices, self.faces)
-        self.up = guess_up(self.vertices, self.faces)
+        #: cameras that together see most of it, the best one first
+        self.views = choose_views(self.vertices, self.faces, self.areas, guess_up(self.vertices), 3)
         self.seam_corners = self._seam_corners()
 
     def _seam_corners(self):
@@ -122,37 +123,24 @@ def _to_bytes(picture):
     return (np.clip(picture, 0, 1) * 255 + 0.5).astype(np.uint8)
 
 
-def _font(size):
-    return ImageFont.load_default(size)
-
-
-def _page(parts, title, captions=None):
+def _page(parts, title):
     """Pictures side by side under a title."""
-    gap, head, foot = 24, 74, 44 if captions else 16
+    gap, head = 24, 74
     width = sum(p.shape[1] for p in parts) + gap * (len(parts) + 1)
-    height = max(p.shape[0] for p in parts) + head + foot
+    height = max(p.shape[0] for p in parts) + head + gap
     page = Image.new("RGB", (width, height), tuple(_to_bytes(PAPER).tolist()))
-    draw = ImageDraw.Draw(page)
-    ink = tuple(_to_bytes(INK).tolist())
-    draw.text((gap, 20), title, fill=ink, font=_font(30))
+    ImageDraw.Draw(page).text((gap, 20), title, fill=tuple(_to_bytes(INK).tolist()), font=ImageFont.load_default(30))
     x = gap
-    for i, part in enumerate(parts):
+    for part in parts:
         page.paste(Image.fromarray(_to_bytes(part)), (x, head))
-        if captions:
-            draw.text((x + part.shape[1] / 2, head + part.shape[0] + 8), captions[i], fill=ink, font=_font(20), anchor="ma")
         x += part.shape[1] + gap
     return page
 
 
-def charts_picture(model, title, views=3, size=760):
-    """The model from `views` sides, each chart in its colour, seams as dark lines. Returns a PIL image."""
-    cameras = choose_views(model.vertices, model.faces, model.areas, model.up, views)
-    parts = [model.draw(view, size, size, lambda seen: _chart_colors_at(model, seen), 2.2) for view in cameras]
+def charts_picture(model, title, size=760):
+    """The model from three sides, each chart in its colour, seams as dark lines. Returns a PIL image."""
+    parts = [model.draw(view, size, size, lambda seen: model.colors[seen.face], 2.2) for view in model.views]
     return _page(parts, title)
-
-
-def _chart_colors_at(model, seen):
-    return model.colors[seen.face]
 
 
 def atlas_picture(model, title, cells=32, size=1000):
@@ -173,5 +161,4 @@ def atlas_picture(model, title, cells=32, size=1000):
         fields_on_model = checker(seen_from_view.interpolate(model.uvs), cells)
         return model.colors[seen_from_view.face] * np.where(fields_on_model[..., None] > 0, 0.62, 1.0)
 
-    view = choose_views(model.vertices, model.faces, model.areas, model.up, 1)[0]
-    return _page([shrink(atlas, SUPERSAMPLING), model.draw(view, size, size, textured, 2.2)], title)
+    return _page([shrink(atlas, SUPERSAMPLING), model.draw(model.views[0], size, size, textured, 2.2)], title)

@@ -5,7 +5,7 @@ import numpy as np
 from .raster import rasterize
 
 
-def guess_up(vertices, faces):
+def guess_up(vertices):
     """The axis (unit vector) that most likely points up: on the far side the model has something broad to stand on.
 
     y or z, by preference up; tells apart what models usually are, and is only a guess.
