@@ -57,9 +57,9 @@ def rasterize(points, depths, faces, width, height, faces_at_once=20000):
             px, py = x + 0.5, y + 0.5
             wa = ((b[owner, 0] - px) * (c[owner, 1] - py) - (b[owner, 1] - py) * (c[owner, 0] - px)) * scale
             wb = ((c[owner, 0] - px) * (a[owner, 1] - py) - (c[owner, 1] - py) * (a[owner, 0] - px)) * scale
-            w = np.stack([wa, wb, 1 - wa - wb], 1)
-            inside = (w >= -1e-9).all(1)
-        owner, w, pixel = owner[inside], w[inside], (y * width + x)[inside]
+            inside = np.flatnonzero((wa >= -1e-9) & (wb >= -1e-9) & (wa + wb <= 1 + 1e-9))
+        wa, wb, owner, pixel = wa[inside], wb[inside], owner[inside], (y * width + x)[inside]
+        w = np.stack([wa, wb, 1 - wa - wb], 1)
         z = (w * depths[part[owner]]).sum(1)
         front = np.lexsort((z, pixel))
         front = front[np.r_[True, np.diff(pixel[front]) != 0]] if len(front) else front

@@ -40,27 +40,29 @@ def _blur(values, radius):
 def hollow_shadow(depth, size):
     """0..1 per pixel: how much a pixel lies behind its surroundings; `size` is the picture's model size in pixels."""
     solid = np.isfinite(depth)
-    if not solid.any():
-        return np.zeros_like(depth)
+    plain = np.where(solid, depth, 0)
     shadow = np.zeros_like(depth)
     for radius in (max(2, int(size * 0.012)), max(3, int(size * 0.045))):
-        share = _blur(solid.astype(float), radius)
-        around = _blur(np.where(solid, depth, 0), radius) / np.maximum(share, 1e-6)
-        shadow += np.clip((np.where(solid, depth, 0) - around) / (1.6 * radius), 0, 1) / 2
+        around = _blur(plain, radius) / np.maximum(_blur(solid.astype(float), radius), 1e-6)
+        shadow += np.clip((plain - around) / (1.6 * radius), 0, 1) / 2
     return np.where(solid, shadow, 0)
 
 
 def light(colors, normals, view, depth, size):
-    """Lit colours (height by width by 3, 0..1) from plain ones and unit normals in space."""
-    eye = normals @ view.T
-    eye /= np.maximum(np.linalg.norm(eye, axis=2, keepdims=True), 1e-9)
-    eye = np.where(eye[..., 2:] < 0, -eye, eye)  # inner sides are lit too
+    """Lit colours (height by width by 3, 0..1) from plain ones and unit normals in space; plain where nothing is."""
+    # Half the resolution is plenty for a soft shadow; depths are in pixels, so they shrink too.
+    shadow = hollow_shadow(depth[::2, ::2] / 2, size / 2).repeat(2, 0).repeat(2, 1)
+    hit = np.isfinite(depth)
+    eye = normals[hit] @ view.T
+    eye /= np.maximum(np.linalg.norm(eye, axis=1, keepdims=True), 1e-9)
+    eye *= np.where(eye[:, 2:] < 0, -1, 1)  # inner sides are lit too
 
     def lamp(*towards):
         return np.clip(eye @ (np.array(towards) / np.linalg.norm(towards)), 0, None)
 
-    diffuse = 0.56 + 0.10 * eye[..., 1] + 0.40 * lamp(-0.45, 0.65, 0.7) + 0.14 * lamp(0.9, 0.1, 0.5)
-    half = np.array([-0.45, 0.65, 0.7]) / np.linalg.norm([-0.45, 0.65, 0.7]) + [0, 0, 1]
-    gloss = 0.13 * lamp(*half) ** 40
-    shadow = 1 - 0.5 * hollow_shadow(depth, size)
-    return np.clip(colors * (diffuse * shadow)[..., None] + gloss[..., None], 0, 1)
+    key = np.array([-0.45, 0.65, 0.7])
+    diffuse = 0.56 + 0.10 * eye[:, 1] + 0.40 * lamp(*key) + 0.14 * lamp(0.9, 0.1, 0.5)
+    gloss = 0.13 * lamp(*(key / np.linalg.norm(key) + [0, 0, 1])) ** 40
+    lit = colors.copy()
+    lit[hit] = np.clip(colors[hit] * (diffuse * (1 - 0.5 * shadow[hit]))[:, None] + gloss[:, None], 0, 1)
+    return lit
