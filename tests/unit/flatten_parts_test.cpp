@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The parts that flattening is made of, against closed forms, finite differences and dense algebra.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "flatten_charts.h"
+#include "planar/boundary_loops.h"
+#include "planar/distortion.h"
+#include "planar/line_search.h"
+#include "planar/rest_shapes.h"
+#include "planar/stretch_energy.h"
+#include "planar/vertex_block_system.h"
+
+namespace dcharts {
+namespace {
+
+Points2 MappedPlane(const ChartMesh& chart, const Eigen::Matrix2d& map) {
+  return (chart.positions.leftCols<2>() * map.transpose()).eval();
+}
+
+TEST(Distortion, AffineMapsOfAPlane) {
+  const ChartMesh chart = GridChart(5, 4, PlanePoint);
+  Eigen::Matrix2d map;
+  map << 2, 0, 0, 1;
+  StretchFigures figures = MeasureStretch(chart, MappedPlane(chart, map));
+  EXPECT_NEAR(figures.L2(), std::sqrt(1.25), 1e-12);
+  EXPECT_NEAR(figures.Linf(), std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(figures.Shear(), 0.2, 1e-12);
+  EXPECT_NEAR(figures.SurfaceArea(), 2, 1e-12);
+  EXPECT_NEAR(figures.UvArea(), 4, 1e-12);
+  map << 1, 1, 0, 1;
+  figures = MeasureStretch(chart, MappedPlane(chart, map));
+  EXPECT_NEAR(figures.L2(), std::sqrt(1.5), 1e-12);
+  const double largest = (3 + std::sqrt(5.0)) / 2;  // squared
+  EXPECT_NEAR(figures.Linf(), std::sqrt(largest), 1e-12);
+  EXPECT_NEAR(figures.Shear(), 1 - 2 * largest / (largest * largest + 1), 1e-12);
+  map << 0, -3, 3, 0;  // turned and enlarged: nothing
+  figures = MeasureStretch(chart, MappedPlane(chart, map));
+  EXPECT_NEAR(figures.L2(), 1, 1e-12);
+  EXPECT_NEAR(figures.Linf(), 1, 1e-12);
+  EXPECT_NEAR(figures.Shear(), 0, 1e-12);
+}
+
+TEST(Distortion, FlippedAndDegenerateTrianglesAreInfinite) {
+  const ChartMesh chart = GridChart(3, 3, PlanePoint);
+  Eigen::Matrix2d mirror;
+  mirror << -1, 0, 0, 1;
+  const StretchFigures mirrored = MeasureStretch(chart, MappedPlane(chart, mirror));
+  EXPECT_EQ(mirrored.FlippedOrDegenerate(), 18);
+  EXPECT_EQ(mirrored.L2(), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(mirrored.Linf(), std::numeric_limits<double>::infinity());
+  const StretchFigures line = MeasureStretch(chart, MappedPlane(chart, Eigen::Matrix2d::Zero()));
+  EXPECT_EQ(line.FlippedOrDegenerate(), 18);
+}
+
+TEST(Distortion, TrianglesWithoutSurfaceAreaCountNowhere) {
+  ChartMesh chart = GridChart(2, 1, PlanePoint);
+  chart.positions.row(chart.triangles(0, 0)) = chart.positions.row(chart.triangles(0, 1)).eval();
+  const Points2 uv = MappedPlane(GridChart(2, 1, PlanePoint), Eigen::Matrix2d::Identity());
+  EXPECT_EQ(MeasureStretch(chart, uv).FlippedOrDegenerate(), 0);
+  EXPECT_TRUE(std::isfinite(MeasureStretch(chart, uv).L2()));
+}
+
+TEST(BoundaryLoops, RectangleWithTwoHoles) {
+  const ChartMesh chart =
+      GridChart(12, 5, PlanePoint, [](int i, int j) { return !((i == 3 || i == 8 || i == 9) && j == 2); });
+  const std::vector<std::vector<int>> loops = BoundaryLoops(chart.triangles);
+  ASSERT_EQ(loops.size(), 3u);
+  EXPECT_EQ(loops[0].size(), 34u);
+  EXPECT_EQ(loops[1].size(), 4u);
+  EXPECT_EQ(loops[2].size(), 6u);
+  EXPECT_TRUE(WhyNotAChart(chart).empty());
+}
+
+TEST(BoundaryLoops, HolesThatTouchInAVertexAreNoChart) {
+  const ChartMesh chart =
+      GridChart(6, 6, PlanePoint, [](int i, int j) { return !((i == 2 && j == 2) || (i == 3 && j == 3)); });
+  EXPECT_FALSE(WhyNotAChart(chart).empty());
+}
+
+TEST(LineSearch, FirstFlipIsWhereAnAreaVanishes) {
+  const ChartMesh chart = GridChart(4, 4, PlanePoint);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int trial = 0; trial < 50; ++trial) {
+    PlanePoints uv, direction;
+    for (Eigen::Index v = 0; v < chart.positions.rows(); ++v) {
+      uv.emplace_back(chart.positions(v, 0), chart.positions(v, 1));
+      direction.emplace_back(uniform(random), uniform(random));
+    }
+    const double first = FirstFlip(chart.triangles, uv, direction);
+    ASSERT_TRUE(std::isfinite(first));
+    const auto smallest_area = [&](double t) {
+      double smallest = std::numeric_limits<double>::infinity();
+      for (Eigen::Index i = 0; i < chart.triangles.rows(); ++i) {
+        Complex z[3];
+        for (int k = 0; k < 3; ++k) {
+          const std::size_t v = static_cast<std::size_t>(chart.triangles(i, k));
+          z[k] = uv[v] + t * direction[v];
+        }
+        smallest = std::min(smallest, Cross(z[1] - z[0], z[2] - z[0]));
+      }
+      return smallest;
+    };
+    EXPECT_NEAR(smallest_area(first), 0, 1e-12);
+    for (int i = 1; i < 100; ++i) EXPECT_GT(smallest_area(first * i / 100), 0);
+  }
+}
+
+TEST(LineSearch, AStepWithoutFlipsIsNotBounded) {
+  const ChartMesh chart = GridChart(2, 2, PlanePoint);
+  PlanePoints uv, growing;
+  for (Eigen::Index v = 0; v < chart.positions.rows(); ++v) {
+    uv.emplace_back(chart.positions(v, 0), chart.positions(v, 1));
+    growing.push_back(uv.back());
+  }
+  EXPECT_EQ(FirstFlip(chart.triangles, uv, growing), std::numeric_limits<double>::infinity());
+}
+
+class EnergyDerivatives : public testing::TestWithParam<StretchEnergy::Kind> {};
+
+// Energy of a triangle as a function of alpha and beta.
+double EnergyOf(const StretchEnergy& energy, const RestShape& shape, const Complex& alpha,
+                const Complex& beta) {
+  // edges of the rest triangle (0, 1, i) that `shape` was made from
+  const Complex one(1, 0), i(0, 1);
+  return shape.weight *
+         TriangleEnergy(energy, shape, alpha * one + beta * one, alpha * i + beta * std::conj(i));
+}
+
+TEST_P(EnergyDerivatives, AgreeWithFiniteDifferences) {
+  StretchEnergy energy;
+  energy.kind = GetParam();
+  energy.reference = 0.3;
+  RestShape shape = ShapeFromCorners(0, 1, Complex(0, 1));
+  shape.weight = 0.7;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int convex = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const Complex alpha = std::polar(1 + 0.3 * uniform(random), 3 * uniform(random));
+    const Complex beta = std::polar(0.2 + 0.15 * uniform(random), 3 * uniform(random));
+    const Complex i(0, 1);
+    const TriangleDerivatives d =
+        ProjectedDerivatives(energy, shape, alpha + beta, alpha * i + beta * std::conj(i));
+    const auto at = [&](const Eigen::Vector4d& x) {
+      return EnergyOf(energy, shape, alpha + Complex(x[0], x[1]), beta + Complex(x[2], x[3]));
+    };
+    const double h = 1e-4;
+    Eigen::Vector4d gradient;
+    Eigen::Matrix4d hessian;
+    for (int a = 0; a < 4; ++a) {
+      const Eigen::Vector4d step_a = h * Eigen::Vector4d::Unit(a);
+      gradient[a] = (at(step_a) - at(-step_a)) / (2 * h);
+      for (int b = 0; b < 4; ++b) {
+        const Eigen::Vector4d step_b = h * Eigen::Vector4d::Unit(b);
+        hessian(a, b) =
+            (at(step_a + step_b) - at(step_a - step_b) - at(step_b - step_a) + at(-step_a - step_b)) /
+            (4 * h * h);
+      }
+    }
+    const double size = hessian.norm() + gradient.norm();
+    EXPECT_NEAR(d.gradient_alpha.real(), gradient[0], 1e-5 * size);
+    EXPECT_NEAR(d.gradient_alpha.imag(), gradient[1], 1e-5 * size);
+    EXPECT_NEAR(d.gradient_beta.real(), gradient[2], 1e-5 * size);
+    EXPECT_NEAR(d.gradient_beta.imag(), gradient[3], 1e-5 * size);
+
+    Eigen::Matrix4d given;
+    for (int b = 0; b < 4; ++b) {
+      const Complex x(b == 0, b == 1), y(b == 2, b == 3);
+      const Complex by_alpha =
+          d.m_alpha * x + d.d_alpha * std::conj(x) + d.cross_linear * y + d.cross_antilinear * std::conj(y);
+      const Complex by_beta = d.m_beta * y + d.d_beta * std::conj(y) + std::conj(d.cross_linear) * x +
+                              d.cross_antilinear * std::conj(x);
+      given.col(b) << by_alpha.real(), by_alpha.imag(), by_beta.real(), by_beta.imag();
+    }
+    EXPECT_NEAR((given - given.transpose()).norm(), 0, 1e-12 * size);
+    // The projection of the true Hessian on the positive semidefinite matrices.
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(0.5 * (hessian + hessian.transpose()));
+    const Eigen::Matrix4d projected = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
+                                      eigen.eigenvectors().transpose();
+    EXPECT_NEAR((given - projected).norm(), 0, 1e-4 * size);
+    if (eigen.eigenvalues().minCoeff() > 0) ++convex;
+  }
+  EXPECT_LT(convex, 40);  // some had something to clamp
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, EnergyDerivatives,
+                         testing::Values(StretchEnergy::Kind::kSymmetricDirichlet,
+                                         StretchEnergy::Kind::kSander, StretchEnergy::Kind::kSanderTail));
+
+TEST(StretchEnergy, ReweightedGradientIsTheTrueOne) {
+  RestShape shape = ShapeFromCorners(0, 1, Complex(0, 1));
+  shape.weight = 2;
+  const Complex e1(1.4, 0.2), e2(-0.3, 0.5);
+  const TriangleDerivatives newton = ProjectedDerivatives({}, shape, e1, e2);
+  const TriangleDerivatives reweighted = ReweightedDerivatives(shape, e1, e2);
+  EXPECT_NEAR(std::abs(newton.gradient_alpha - reweighted.gradient_alpha), 0, 1e-14);
+  EXPECT_NEAR(std::abs(newton.gradient_beta - reweighted.gradient_beta), 0, 1e-14);
+}
+
+TEST(VertexBlockSystem, SolvesLikeADenseMatrix) {
+  const ChartMesh chart = GridChart(4, 3, PlanePoint);
+  const int vertices = static_cast<int>(chart.positions.rows());
+  VertexBlockSystem system(vertices, chart.triangles);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(2 * vertices, 2 * vertices);
+  for (Eigen::Index t = 0; t < chart.triangles.rows(); ++t) {
+    // b b^T of a random 6 x 2 matrix
+    const Eigen::MatrixXd b = Eigen::MatrixXd::NullaryExpr(6, 2, [&] { return uniform(random); });
+    const Eigen::MatrixXd local = b * b.transpose();
+    for (int k = 0; k < 3; ++k) {
+      for (int l = 0; l < 3; ++l) {
+        dense.block<2, 2>(2 * chart.triangles(t, k), 2 * chart.triangles(t, l)) +=
+            local.block<2, 2>(2 * k, 2 * l);
+        if (l < k) continue;
+        const Eigen::Matrix2d block = local.block<2, 2>(2 * k, 2 * l);
+        system.Add(t, k, l, {block(0, 0), block(0, 1), block(1, 0), block(1, 1)});
+      }
+    }
+  }
+  const double shift = 0.1 * dense.diagonal().mean();
+  dense.diagonal().array() += shift;
+  system.Regularize(0.1);
+  PlanePoints right_hand_side;
+  Eigen::VectorXd dense_right(2 * vertices);
+  for (int v = 0; v < vertices; ++v) {
+    right_hand_side.emplace_back(uniform(random), uniform(random));
+    dense_right.segment<2>(2 * v) << right_hand_side.back().real(), right_hand_side.back().imag();
+  }
+  ASSERT_TRUE(system.Factorize());
+  PlanePoints solution = system.Solve(right_hand_side);
+  Eigen::VectorXd expected = dense.ldlt().solve(dense_right);
+  for (int v = 0; v < vertices; ++v) {
+    EXPECT_NEAR(solution[static_cast<std::size_t>(v)].real(), expected[2 * v], 1e-9);
+    EXPECT_NEAR(solution[static_cast<std::size_t>(v)].imag(), expected[2 * v + 1], 1e-9);
+  }
+
+  const int pinned = 7;
+  system.Pin(pinned, Complex(3, -2), right_hand_side);
+  ASSERT_TRUE(system.Factorize());
+  solution = system.Solve(right_hand_side);
+  const Eigen::Vector2d value(3, -2);
+  dense_right -= dense.middleCols<2>(2 * pinned) * value;
+  dense.middleCols<2>(2 * pinned).setZero();
+  dense.middleRows<2>(2 * pinned).setZero();
+  dense.block<2, 2>(2 * pinned, 2 * pinned).setIdentity();
+  dense_right.segment<2>(2 * pinned) = value;
+  expected = dense.ldlt().solve(dense_right);
+  for (int v = 0; v < vertices; ++v) {
+    EXPECT_NEAR(solution[static_cast<std::size_t>(v)].real(), expected[2 * v], 1e-9);
+    EXPECT_NEAR(solution[static_cast<std::size_t>(v)].imag(), expected[2 * v + 1], 1e-9);
+  }
+}
+
+TEST(VertexBlockSystem, SaysWhenAMatrixIsNotPositiveDefinite) {
+  const ChartMesh chart = GridChart(1, 1, PlanePoint);
+  VertexBlockSystem system(4, chart.triangles);
+  EXPECT_FALSE(system.Factorize());
+  for (int v = 0; v < 4; ++v) system.AddDiagonal(v, v == 2 ? -1 : 1);
+  EXPECT_FALSE(system.Factorize());
+}
+
+}  // namespace
+}  // namespace dcharts
