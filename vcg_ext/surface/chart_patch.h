@@ -50,14 +50,15 @@ struct ChartPatch {
   double Length(int half_edge) const {
     return (mesh.positions.row(Vertex(half_edge)) - mesh.positions.row(Vertex(Next(half_edge)))).norm();
   }
+  double FaceArea(int face) const {
+    const Eigen::Vector3d a = mesh.positions.row(mesh.triangles(face, 0)),
+                          b = mesh.positions.row(mesh.triangles(face, 1)),
+                          c = mesh.positions.row(mesh.triangles(face, 2));
+    return (b - a).cross(c - a).norm() / 2;
+  }
   double Area() const {
     double area = 0;
-    for (int f = 0; f < static_cast<int>(faces.size()); ++f) {
-      const Eigen::Vector3d a = mesh.positions.row(mesh.triangles(f, 0)),
-                            b = mesh.positions.row(mesh.triangles(f, 1)),
-                            c = mesh.positions.row(mesh.triangles(f, 2));
-      area += (b - a).cross(c - a).norm() / 2;
-    }
+    for (int f = 0; f < static_cast<int>(faces.size()); ++f) area += FaceArea(f);
     return area;
   }
 };

@@ -30,7 +30,7 @@ class BoundaryRegion {
   double Error(const ChartIds& ids, int a, int b, const std::vector<int>& border, double chart_area) {
     // The paper doesn't say how wide the region is. Thin bands always look like cylinders; this width keeps
     // the octants of a sphere apart.
-    constexpr double kWidth = 0.4;
+    constexpr double kWidth = 0.25;
     distance_.Run(
         border, [&](int f) { return ids[f] == a || ids[f] == b; }, kWidth * std::sqrt(chart_area));
     NormalMoments moments;
