@@ -27,28 +27,27 @@ class Lloyd {
   Lloyd(const SurfaceGraph<MeshType>& surface, const Params& params, Progress& progress)
       : surface_(surface), params_(params), progress_(progress), seeds_(surface), growth_(surface, params) {}
 
-  /// params.chart_count charts; 0 finds the number: the smallest of a growing list for which hardly any face
-  /// stays unassigned and the charts fit well.
+  /// params.chart_count charts; 0 finds the number: the smallest of a growing list for which the charts fit
+  /// well.
   Segmentation Run() {
     if (params_.chart_count > 0) return Iterate(params_.chart_count, params_.max_iterations);
-    // What a proxy explains to this mean error flattens with little stretch; found on models of many kinds.
-    const double good_energy = kGoodEnergy * params_.max_fitting_error;
-    const double good_unassigned = params_.small_hole_percent / 100;
-    constexpr int kTrialIterations = 12;
+    constexpr int kTrialIterations = 6;
     int iterations = 0;
     for (int count = 1;; count = std::max(count + 1, count * 5 / 4)) {
-      Segmentation trial = Iterate(count, std::min(kTrialIterations, params_.max_iterations));
+      const Segmentation trial = Iterate(count, std::min(kTrialIterations, params_.max_iterations));
       iterations += trial.iterations;
-      const bool good = trial.energy <= good_energy && trial.unassigned_area <= good_unassigned;
+      const bool good = trial.energy <= kGoodEnergy * params_.max_fitting_error;
       if (!good && count < std::min(kMostCharts, surface_.FaceCount())) continue;
-      trial = Iterate(count, params_.max_iterations);
-      trial.iterations += iterations;
-      return trial;
+      Segmentation result = Iterate(count, params_.max_iterations);
+      result.iterations += iterations;
+      return result;
     }
   }
 
  private:
-  static constexpr double kGoodEnergy = 0.04;
+  // Charts that fit to this share of F_max flatten with an L2 stretch below 1.005 on models of many kinds,
+  // and are about as many as the paper starts with.
+  static constexpr double kGoodEnergy = 0.12;
   static constexpr int kMostCharts = 2000;
 
   Segmentation Iterate(int count, int max_iterations) {
@@ -89,10 +88,14 @@ class Lloyd {
     best.unassigned_area = unassigned / surface_.TotalArea();
   }
 
+  // Share of the faces with a chart that have another than before.
   static double Reassigned(const ChartIds& before, const ChartIds& now) {
-    size_t count = 0;
-    for (size_t f = 0; f < now.size(); ++f) count += before[f] != now[f];
-    return static_cast<double>(count) / static_cast<double>(now.size());
+    size_t changed = 0, assigned = 0;
+    for (size_t f = 0; f < now.size(); ++f) {
+      changed += before[f] != now[f];
+      assigned += now[f] != kUnassigned;
+    }
+    return static_cast<double>(changed) / static_cast<double>(std::max<size_t>(assigned, 1));
   }
 
   // A chart of a face or two could not grow: its place is a hole for Fill.
