@@ -28,6 +28,12 @@ using dcharts::shapes::Shape;
 using Edge = std::pair<int, int>;
 using Point = std::array<double, 3>;
 
+/// All shapes, made once.
+const std::vector<Shape>& Shapes() {
+  static const std::vector<Shape> shapes = AllShapes();
+  return shapes;
+}
+
 Point Minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Point Cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -111,10 +117,6 @@ std::string ReadFile(const std::filesystem::path& path) {
 
 class ShapesTest : public testing::TestWithParam<size_t> {
  protected:
-  static const std::vector<Shape>& Shapes() {
-    static const std::vector<Shape> shapes = AllShapes();
-    return shapes;
-  }
   const Shape& shape_ = Shapes()[GetParam()];
   const SurfaceData& mesh_ = shape_.mesh;
 };
@@ -178,8 +180,8 @@ TEST_P(ShapesTest, HasGoodTriangles) {
   EXPECT_GT(SmallestAngleInDegrees(mesh_), pointed ? 3 : 15);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShapesTest, testing::Range<size_t>(0, AllShapes().size()),
-                         [](const auto& parameter) { return AllShapes()[parameter.param].name; });
+INSTANTIATE_TEST_SUITE_P(All, ShapesTest, testing::Range<size_t>(0, Shapes().size()),
+                         [](const auto& parameter) { return Shapes()[parameter.param].name; });
 
 TEST(Shapes, FollowTheirResolution) {
   using namespace dcharts::shapes;
