@@ -57,12 +57,14 @@ class MeshlabGui:
         return self.session.wait_for_window(name)
 
     def apply(self, name, seconds=240):
-        """Applies a filter with its default parameters and waits until MeshLab says it is done."""
+        """Applies a filter with its default parameters, waits until MeshLab says it is done, and takes the filter's
+        dialog off the screen."""
         window = self.open_filter(name)
         self.session.xdotool('windowactivate', '--sync', window)
         time.sleep(0.3)
         self.session.keys('space')
         self.wait_for_output(f'Applied filter:? {re.escape(name)} in', seconds)
+        self.session.xdotool('windowunmap', '--sync', window)
         time.sleep(1)
 
     def colors(self):
