@@ -92,7 +92,7 @@ std::vector<ParamSpec> MakeParams() {
        "exactly.",
        &Params::dart_fitting_error, 0, 4},
       {"max_dart_percent", "Longest dart (% of the chart's size)",
-       "A dart may be this long, in percent of its chart's size, which is the square root of its area. "
+       "A dart may be this long, in percent of its chart's size, which is the diagonal of its bounding box. "
        "Larger values "
        "give longer seams and less stretch; 0 makes no darts.",
        &Params::max_dart_percent, 0, 1000},

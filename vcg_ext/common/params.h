@@ -29,7 +29,7 @@ struct Params {
   // --- cuts (3.3)
   double dart_fitting_error = 0.2;  ///< darts run to regions whose fitting error (Eq. 1) is above this, 0..4
   double max_dart_percent =
-      50.0;  ///< longest dart, percent of its chart's size (sqrt of its area), 0..1000; 0 = no darts
+      100.0;  ///< longest dart, percent of its chart's bounding box diagonal, 0..1000; 0 = no darts
   bool cut_to_disk = false;  ///< cut every boundary loop open, so that each chart is a disk
   bool seam_layer = false;   ///< add a layer of seam lines
 

@@ -17,6 +17,7 @@ constexpr double kPi = 3.14159265358979323846;
 struct Region {
   std::vector<int> vertices;
   double curvature = 0;  // sum of angle defects, radians; negative for a saddle, which needs a gusset
+  bool apex = false;     // one vertex holds the curvature: only a cut that ends there lets it out
 };
 
 // 2 pi less the angle sum inside, 0 on the boundary.
@@ -74,7 +75,7 @@ void AddApexes(const ChartPatch& patch, const std::vector<double>& defect, std::
   }
   for (int v = 0; v < patch.VertexCount(); ++v) {
     const double d = std::abs(defect[v]);
-    if (d > kSpike || (d > kApex && d > kStandsOut * around[v])) regions.push_back({{v}, defect[v]});
+    if (d > kSpike || (d > kApex && d > kStandsOut * around[v])) regions.push_back({{v}, defect[v], true});
   }
 }
 
@@ -109,7 +110,8 @@ Darts PlanDarts(const ChartPatch& patch, const std::vector<double>& fitting_erro
       int tip = -1;
       for (int v : region.vertices) {
         const double d = paths.Distance(v);
-        if (!relieved[v] && d >= shortest && d <= longest && (tip < 0 || d > paths.Distance(tip))) tip = v;
+        const bool wanted = region.apex ? d > 0 : !relieved[v] && d >= shortest;
+        if (wanted && d <= longest && (tip < 0 || d > paths.Distance(tip))) tip = v;
       }
       if (tip < 0) break;
       const double length = paths.Distance(tip);
