@@ -144,7 +144,7 @@ double WorstSander(const Triangles& triangles, const RestShapes& shapes, const P
 // is kept whose mean stretch is still about that of `uv`; when there is none, `uv` stays.
 void LowerWorstStretch(const ChartMesh& chart, RestShapes& shapes, VertexBlockSystem& system,
                        const Poll& poll, PlanePoints& uv) {
-  constexpr int kSteps = 15;
+  constexpr int kSteps = 10;
   constexpr int kPatience = 3;               // steps without a gain
   constexpr double kDearestMean = 1.1;       // L2 - 1 may grow by a tenth for it
   constexpr double kReferenceOfWorst = 0.9;  // the tail begins just below the worst triangle
@@ -161,7 +161,7 @@ void LowerWorstStretch(const ChartMesh& chart, RestShapes& shapes, VertexBlockSy
     const StretchEnergy tail{Kind::kSanderTail,
                              kReferenceOfWorst * WorstSander(chart.triangles, shapes, trial)};
     if (!(tail.reference > 0)) return;
-    Descend(tail, {StepKind::kProjectedNewton, 1, 0}, chart.triangles, shapes, system, poll, trial);
+    Descend(tail, {StepKind::kProjectedNewton, 1, 0, 2}, chart.triangles, shapes, system, poll, trial);
     figures = MeasureStretch(chart, ToPoints(trial, 1.0));
     ++steps_without_gain;
     if (figures.L2() - 1 <= dearest && figures.Linf() < worst) {

@@ -57,19 +57,27 @@ double FirstFlip(const Triangles& triangles, const PlanePoints& uv, const PlaneP
 }
 
 bool SearchLine(const StretchEnergy& energy, const Triangles& triangles, const RestShapes& shapes,
-                const PlanePoints& direction, double slope, PlanePoints& uv, double& value) {
-  double step = std::min(1.0, kShareOfWayToFlip * FirstFlip(triangles, uv, direction));
-  PlanePoints trial(uv.size());
+                const PlanePoints& direction, double slope, double longest_step, PlanePoints& uv,
+                double& value) {
+  double step = std::min(longest_step, kShareOfWayToFlip * FirstFlip(triangles, uv, direction));
+  PlanePoints trial(uv.size()), best;
+  double best_value = value;
   for (int halving = 0; halving < kMaxHalvings; ++halving, step *= 0.5) {
     for (std::size_t v = 0; v < uv.size(); ++v) trial[v] = uv[v] + step * direction[v];
     const double trial_value = MapEnergy(energy, triangles, shapes, trial);
-    if (trial_value < value && trial_value <= value + kArmijo * step * slope) {
-      uv.swap(trial);
-      value = trial_value;
-      return true;
+    if (trial_value < best_value && trial_value <= value + kArmijo * step * slope) {
+      best.swap(trial);
+      trial.resize(uv.size());
+      best_value = trial_value;
+      if (step <= 1) break;
+    } else if (!best.empty()) {
+      break;
     }
   }
-  return false;
+  if (best.empty()) return false;
+  uv.swap(best);
+  value = best_value;
+  return true;
 }
 
 }  // namespace dcharts

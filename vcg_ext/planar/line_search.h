@@ -15,10 +15,12 @@ double MapEnergy(const StretchEnergy& energy, const Triangles& triangles, const 
 /// [Smith and Schaefer 2015]; +infinity when none does. All areas in `uv` must be positive.
 double FirstFlip(const Triangles& triangles, const PlanePoints& uv, const PlanePoints& direction);
 
-/// Moves `uv` along `direction`, at most one step and 0.9 of the way to the first flip, halved until the
-/// energy falls enough (Armijo). `slope` is the energy's derivative along the direction (< 0), `value` its
-/// value, replaced by the new one. False, and nothing moved, when it falls nowhere.
+/// Moves `uv` along `direction`, at most `longest_step` and 0.9 of the way to the first flip, halved until
+/// the energy falls enough (Armijo), and further down to 1 while that lowers it more. `slope` is the energy's
+/// derivative along the direction (< 0), `value` its value, replaced by the new one. False, and nothing
+/// moved, when it falls nowhere.
 bool SearchLine(const StretchEnergy& energy, const Triangles& triangles, const RestShapes& shapes,
-                const PlanePoints& direction, double slope, PlanePoints& uv, double& value);
+                const PlanePoints& direction, double slope, double longest_step, PlanePoints& uv,
+                double& value);
 
 }  // namespace dcharts

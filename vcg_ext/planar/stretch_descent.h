@@ -19,6 +19,7 @@ struct DescentOptions {
   StepKind step = StepKind::kProjectedNewton;
   int max_steps = 50;
   double tolerance = 1e-4;  ///< stop when a step can gain no more than this share of the energy
+  double longest_step = 1;  ///< >= 1; Newton steps fall short on steep powers
 };
 
 /// Lowers the energy of `uv` without flipping a triangle and returns the energy reached. All areas must be
