@@ -111,7 +111,7 @@ def run(mesh_path, folder):
                   mesh.face_color_matrix()[:, :3])
     ms.save_current_mesh(str(folder / "segmented.ply"), save_face_quality=True, save_face_color=True)
     # MeshLab writes one material per face colour; an atlas is one material with one texture.
-    ms.set_color_per_face(color1=pymeshlab.Color(255, 255, 255))
+    ms.compute_color_by_function_per_face(r="255", g="255", b="255", a="255")
     ms.save_current_mesh(str(folder / "atlas.obj"), save_wedge_texcoord=True, save_textures=False)
     checker_image().save(folder / TEXTURE)
     use_texture(folder / "atlas.obj.mtl", TEXTURE)

@@ -3,14 +3,15 @@
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from .raster import NOTHING, rasterize, shrink, stamp_lines
+from .raster import rasterize, shrink, stamp_lines
 from .shading import corner_normals, light
 from .views import choose_views, guess_up, project
 
 SUPERSAMPLING = 2
-PAPER = np.array([1.0, 1.0, 1.0])
-INK = np.array([0.10, 0.10, 0.13])
-UNASSIGNED = np.array([0.75, 0.75, 0.75])
+PAPER = np.array([1.0, 1.0, 1.0], np.float32)
+DESK = np.array([0.93, 0.93, 0.94], np.float32)  # behind the atlas
+INK = np.array([0.10, 0.10, 0.13], np.float32)
+UNASSIGNED = np.array([0.75, 0.75, 0.75], np.float32)
 
 
 def chart_colors(count):
@@ -39,7 +40,7 @@ class Model:
         if colors is None:
             palette = np.vstack([chart_colors(max(self.chart_ids.max(initial=-1) + 1, 0)), UNASSIGNED])
             colors = palette[self.chart_ids]
-        self.colors = np.asarray(colors, float)
+        self.colors = np.asarray(colors, np.float32)
         corners = self.vertices[self.faces]
         self.areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
         self.normals = corner_normals(self.vertices, self.faces)
@@ -79,27 +80,27 @@ class Model:
         pixels, depths, _ = project(self.vertices, view, big_width, big_height, 0.05 * min(big_width, big_height))
         seen = rasterize(pixels, depths, self.faces, big_width, big_height)
         size = np.ptp(pixels, axis=0).max()
-        picture = light(colors_at(seen), seen.interpolate(self.normals), view, seen.depth, size)
+        lit = light(colors_at(seen), seen.interpolate(self.normals), view, seen, size)
 
         face, corner = self.seam_corners
         a, b = self.faces[face, corner], self.faces[face, (corner + 1) % 3]
-        lines = np.zeros(seen.face.shape, bool)
         # A seam on the far side stays hidden; on slopes the depth changes much within a pixel.
-        front = seen.depth.copy()
+        nearest = seen.spread(seen.depth, np.inf)
+        front = nearest.copy()
         for shift in (-1, 1):
             for axis in (0, 1):
-                rolled = np.roll(seen.depth, shift, axis)
-                front = np.where(np.isfinite(rolled), np.maximum(front, np.minimum(rolled, front + 0.01 * size)), front)
+                beside = np.roll(nearest, shift, axis)
+                front = np.where(np.isfinite(beside), np.maximum(front, np.minimum(beside, front + 0.01 * size)), front)
 
         def visible(columns, rows, segment, t):
             z = depths[a[segment]] * (1 - t) + depths[b[segment]] * t
             return z < front[rows, columns] + 0.004 * size
 
+        lines = np.zeros(seen.shape, bool)
         stamp_lines(lines, pixels[a], pixels[b], line_width * SUPERSAMPLING / 2, visible)
-        lines &= seen.face != NOTHING
-        picture[lines] = 0.15 * picture[lines] + 0.85 * INK
-        picture[seen.face == NOTHING] = PAPER
-        return shrink(picture, SUPERSAMPLING)
+        on_line = lines.ravel()[seen.pixel]
+        lit[on_line] = 0.15 * lit[on_line] + 0.85 * INK
+        return shrink(seen.spread(lit, PAPER), SUPERSAMPLING)
 
 
 def checker(uv, cells):
@@ -137,28 +138,31 @@ def _page(parts, title):
     return page
 
 
-def charts_picture(model, title, size=760):
+def charts_picture(model, title, size=680):
     """The model from three sides, each chart in its colour, seams as dark lines. Returns a PIL image."""
     parts = [model.draw(view, size, size, lambda seen: model.colors[seen.face], 2.2) for view in model.views]
     return _page(parts, title)
 
 
-def atlas_picture(model, title, cells=32, size=1000):
+def atlas_picture(model, title, cells=32, size=900):
     """The atlas with its charts in their colours under a checker, and the model with the same checker. Returns a PIL image."""
     big = size * SUPERSAMPLING
     points = model.uvs.reshape(-1, 2) * [big, -big] + [0, big]
     seen = rasterize(points, np.zeros(len(points)), np.arange(len(points)).reshape(-1, 3), big, big)
-    fields = checker(seen.interpolate(model.uvs), cells)
-    atlas = model.colors[seen.face] * np.where(fields[..., None] > 0, 0.80, 1.0)
-    atlas[seen.face == NOTHING] = [0.93, 0.93, 0.94]
-    lines = np.zeros(seen.face.shape, bool)
+    atlas = seen.spread(_checkered(model, seen, cells, 0.80), DESK)
     face, corner = model.seam_corners
-    starts, ends = points.reshape(-1, 3, 2)[face, corner], points.reshape(-1, 3, 2)[face, (corner + 1) % 3]
-    stamp_lines(lines, starts, ends, 0.9 * SUPERSAMPLING)
+    corners = points.reshape(-1, 3, 2)
+    lines = np.zeros(seen.shape, bool)
+    stamp_lines(lines, corners[face, corner], corners[face, (corner + 1) % 3], 0.9 * SUPERSAMPLING)
     atlas[lines] = INK
 
     def textured(seen_from_view):
-        fields_on_model = checker(seen_from_view.interpolate(model.uvs), cells)
-        return model.colors[seen_from_view.face] * np.where(fields_on_model[..., None] > 0, 0.62, 1.0)
+        return _checkered(model, seen_from_view, cells, 0.62)
 
     return _page([shrink(atlas, SUPERSAMPLING), model.draw(model.views[0], size, size, textured, 2.2)], title)
+
+
+def _checkered(model, seen, cells, shade):
+    """The charts' colours, darker in every other field of the checker."""
+    fields = checker(seen.interpolate(model.uvs), cells)
+    return model.colors[seen.face] * np.where(fields > 0, shade, 1.0).astype(np.float32)[:, None]

@@ -4,24 +4,31 @@ from dataclasses import dataclass
 
 import numpy as np
 
-NOTHING = -1
+CANDIDATES_AT_ONCE = 400_000
 
 
 @dataclass
 class Seen:
-    """What each pixel of a picture shows; arrays of height by width."""
+    """What the pixels of a picture show; only those where there is something, k in number, row by row."""
 
-    face: np.ndarray  #: index of the triangle in front, or NOTHING
-    weights: np.ndarray  #: by 3: barycentric coordinates of the pixel's centre in it
-    depth: np.ndarray  #: larger is farther, infinite where nothing is
+    shape: tuple  #: height and width of the picture
+    pixel: np.ndarray  #: k: row * width + column
+    face: np.ndarray  #: k: index of the triangle in front
+    weights: np.ndarray  #: k by 3: barycentric coordinates of the pixel's centre in it
+    depth: np.ndarray  #: k: larger is farther
 
     def interpolate(self, corner_values):
-        """Values at the triangles' corners (faces by 3 by k), at every pixel (height by width by k); 0 where nothing is."""
-        corner_values = np.asarray(corner_values)
-        hit = self.face != NOTHING
-        values = np.zeros(self.face.shape + corner_values.shape[2:])
-        values[hit] = np.einsum("pc,pck->pk", self.weights[hit], corner_values[self.face[hit]])
-        return values
+        """Values at the triangles' corners (faces by 3 by n), at the pixels (k by n)."""
+        corner_values = np.asarray(corner_values, np.float32)
+        return np.einsum("pc,pcn->pn", self.weights, corner_values[self.face])
+
+    def spread(self, values, background):
+        """A picture (height by width by n) with values (k by n, or k) where there is something and one value elsewhere."""
+        values = np.asarray(values)
+        picture = np.empty((self.shape[0] * self.shape[1],) + values.shape[1:], values.dtype)
+        picture[:] = background
+        picture[self.pixel] = values
+        return picture.reshape(self.shape + values.shape[1:])
 
 
 def _candidates(points, width, height, faces):
@@ -36,7 +43,15 @@ def _candidates(points, width, height, faces):
     return owner, low[owner, 0] + within % columns, low[owner, 1] + within // columns
 
 
-def rasterize(points, depths, faces, width, height, faces_at_once=20000):
+def _parts(points, faces):
+    """Splits the faces in runs whose bounding boxes together hold about CANDIDATES_AT_ONCE pixels."""
+    boxes = np.prod(np.ptp(points[faces], axis=1) + 1, axis=1)
+    run = (np.cumsum(boxes) // CANDIDATES_AT_ONCE).astype(np.int64)
+    starts = np.r_[0, np.flatnonzero(np.diff(run)) + 1, len(faces)] if len(faces) else [0, 0]
+    return zip(starts[:-1], starts[1:])
+
+
+def rasterize(points, depths, faces, width, height):
     """Draws triangles with hidden surfaces removed.
 
     points: n by 2, in pixels, x to the right, y down; depths: n, larger is farther; faces: m by 3.
@@ -44,30 +59,38 @@ def rasterize(points, depths, faces, width, height, faces_at_once=20000):
     """
     points = np.asarray(points, float)
     faces = np.asarray(faces)
-    face = np.full(width * height, NOTHING)
-    weights = np.zeros((width * height, 3), np.float32)
-    depth = np.full(width * height, np.inf)
-    for start in range(0, len(faces), faces_at_once):
-        part = faces[start : start + faces_at_once]
+    face = np.full(width * height, -1, np.int32)
+    weights = np.zeros((width * height, 2), np.float32)
+    depth = np.full(width * height, np.inf, np.float32)
+    for start, end in _parts(points, faces):
+        part = faces[start:end]
         owner, x, y = _candidates(points, width, height, part)
         a, b, c = (points[part[:, i]] for i in range(3))
         double_area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+        # Each weight is a linear function of the pixel.
         with np.errstate(divide="ignore", invalid="ignore"):
-            scale = (1 / double_area)[owner]
-            px, py = x + 0.5, y + 0.5
-            wa = ((b[owner, 0] - px) * (c[owner, 1] - py) - (b[owner, 1] - py) * (c[owner, 0] - px)) * scale
-            wb = ((c[owner, 0] - px) * (a[owner, 1] - py) - (c[owner, 1] - py) * (a[owner, 0] - px)) * scale
+            slopes_a = np.stack([b[:, 1] - c[:, 1], c[:, 0] - b[:, 0]], 1) / double_area[:, None]
+            slopes_b = np.stack([c[:, 1] - a[:, 1], a[:, 0] - c[:, 0]], 1) / double_area[:, None]
+            from_c = 0.5 - c
+            at_a = (slopes_a * from_c).sum(1)
+            at_b = (slopes_b * from_c).sum(1)
+            wa = at_a[owner] + slopes_a[owner, 0] * x + slopes_a[owner, 1] * y
+            wb = at_b[owner] + slopes_b[owner, 0] * x + slopes_b[owner, 1] * y
             inside = np.flatnonzero((wa >= -1e-9) & (wb >= -1e-9) & (wa + wb <= 1 + 1e-9))
         wa, wb, owner, pixel = wa[inside], wb[inside], owner[inside], (y * width + x)[inside]
-        w = np.stack([wa, wb, 1 - wa - wb], 1)
-        z = (w * depths[part[owner]]).sum(1)
-        front = np.lexsort((z, pixel))
-        front = front[np.r_[True, np.diff(pixel[front]) != 0]] if len(front) else front
-        front = front[z[front] < depth[pixel[front]]]
-        face[pixel[front]] = owner[front] + start
-        weights[pixel[front]] = w[front]
-        depth[pixel[front]] = z[front]
-    return Seen(face.reshape(height, width), weights.reshape(height, width, 3), depth.reshape(height, width))
+        za, zb, zc = (depths[part[:, i]] for i in range(3))
+        z = (zc[owner] + wa * (za - zc)[owner] + wb * (zb - zc)[owner]).astype(np.float32)
+        front = np.flatnonzero(z < depth[pixel])
+        front = front[np.lexsort((z[front], pixel[front]))]
+        front = front[np.diff(pixel[front], prepend=-1) != 0]
+        pixel = pixel[front]
+        face[pixel] = owner[front] + start
+        weights[pixel, 0] = wa[front]
+        weights[pixel, 1] = wb[front]
+        depth[pixel] = z[front]
+    hit = np.flatnonzero(face >= 0)
+    wa, wb = weights[hit].T
+    return Seen((height, width), hit, face[hit], np.stack([wa, wb, 1 - wa - wb], 1), depth[hit])
 
 
 def shrink(pixels, factor):

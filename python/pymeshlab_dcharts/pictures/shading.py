@@ -38,31 +38,34 @@ def _blur(values, radius):
 
 
 def hollow_shadow(depth, size):
-    """0..1 per pixel: how much a pixel lies behind its surroundings; `size` is the picture's model size in pixels."""
+    """0..1 per pixel: how much a pixel lies behind its surroundings.
+
+    depth: height by width, in pixels, infinite where nothing is; size: of the model in the picture, in pixels.
+    """
     solid = np.isfinite(depth)
     plain = np.where(solid, depth, 0)
-    shadow = np.zeros_like(depth)
+    shadow = np.zeros_like(plain)
     for radius in (max(2, int(size * 0.012)), max(3, int(size * 0.045))):
-        around = _blur(plain, radius) / np.maximum(_blur(solid.astype(float), radius), 1e-6)
+        around = _blur(plain, radius) / np.maximum(_blur(solid.astype(np.float32), radius), 1e-6)
         shadow += np.clip((plain - around) / (1.6 * radius), 0, 1) / 2
-    return np.where(solid, shadow, 0)
+    return shadow
 
 
-def light(colors, normals, view, depth, size):
-    """Lit colours (height by width by 3, 0..1) from plain ones and unit normals in space; plain where nothing is."""
+def light(colors, normals, view, seen, size):
+    """Lit colours (k by 3, 0..1) of the seen pixels from plain ones and normals in space; size as in hollow_shadow."""
     # Half the resolution is plenty for a soft shadow; depths are in pixels, so they shrink too.
-    shadow = hollow_shadow(depth[::2, ::2] / 2, size / 2).repeat(2, 0).repeat(2, 1)
-    hit = np.isfinite(depth)
-    eye = normals[hit] @ view.T
+    depth = seen.spread(seen.depth, np.inf)
+    small = hollow_shadow(depth[::2, ::2] / 2, size / 2)
+    width = seen.shape[1]
+    shadow = small[seen.pixel // width // 2, seen.pixel % width // 2]
+    eye = normals @ view.T.astype(np.float32)
     eye /= np.maximum(np.linalg.norm(eye, axis=1, keepdims=True), 1e-9)
     eye *= np.where(eye[:, 2:] < 0, -1, 1)  # inner sides are lit too
 
     def lamp(*towards):
-        return np.clip(eye @ (np.array(towards) / np.linalg.norm(towards)), 0, None)
+        return np.clip(eye @ (np.array(towards, np.float32) / np.linalg.norm(towards)), 0, None)
 
     key = np.array([-0.45, 0.65, 0.7])
     diffuse = 0.56 + 0.10 * eye[:, 1] + 0.40 * lamp(*key) + 0.14 * lamp(0.9, 0.1, 0.5)
     gloss = 0.13 * lamp(*(key / np.linalg.norm(key) + [0, 0, 1])) ** 40
-    lit = colors.copy()
-    lit[hit] = np.clip(colors[hit] * (diffuse * (1 - 0.5 * shadow[hit]))[:, None] + gloss[:, None], 0, 1)
-    return lit
+    return np.clip(colors * (diffuse * (1 - 0.5 * shadow))[:, None] + gloss[:, None], 0, 1)

@@ -62,18 +62,19 @@ def choose_views(vertices, faces, face_areas, up, count, size=110):
     worth = []
     for view in candidates:
         pixels, depths, scale = project(vertices, view, size, size, 2)
-        front = rasterize(pixels, depths, faces, size, size).depth
+        seen = rasterize(pixels, depths, faces, size, size)
+        front = seen.spread(seen.depth, np.inf)
         x, y = np.floor(pixels[faces].mean(1)).astype(int).clip(0, size - 1).T
         near = depths[faces].mean(1) < front[y, x] + 2.5
         facing = np.abs(normals @ view[2])
         worth.append(np.where(near & (facing > 0.15), face_areas * facing, 0))
     worth = np.array(worth)
     worth[12:] *= 0.85  # people look at things from the side first
-    seen = np.zeros(len(faces))
+    shown = np.zeros(len(faces))
     chosen = []
     for _ in range(count):
-        gains = np.maximum(worth - seen, 0).sum(1)
+        gains = np.maximum(worth - shown, 0).sum(1)
         best = int(np.argmax(gains))
         chosen.append(candidates[best])
-        seen = np.maximum(seen, worth[best])
+        shown = np.maximum(shown, worth[best])
     return chosen
