@@ -127,7 +127,7 @@ Points2 ToPoints(const PlanePoints& uv, double factor) {
   return points;
 }
 
-double WorstSander(const Triangles& triangles, const RestShapes& shapes, const PlanePoints& uv) {
+double WorstContraction(const Triangles& triangles, const RestShapes& shapes, const PlanePoints& uv) {
   double worst = 0;
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     const RestShape& shape = shapes[static_cast<std::size_t>(t)];
@@ -135,7 +135,7 @@ double WorstSander(const Triangles& triangles, const RestShapes& shapes, const P
     const Complex z0 = uv[static_cast<std::size_t>(triangles(t, 0))];
     const Complex e1 = uv[static_cast<std::size_t>(triangles(t, 1))] - z0;
     const Complex e2 = uv[static_cast<std::size_t>(triangles(t, 2))] - z0;
-    worst = std::max(worst, TriangleEnergy({Kind::kSander}, shape, e1, e2));
+    worst = std::max(worst, TriangleContraction(shape, e1, e2));
   }
   return worst;
 }
@@ -159,7 +159,7 @@ void LowerWorstStretch(const ChartMesh& chart, RestShapes& shapes, VertexBlockSy
   for (int step = 0; step < kSteps && steps_without_gain < kPatience; ++step) {
     if (!(worst - 1 > kNothingToLower)) return;
     const StretchEnergy tail{Kind::kSanderTail,
-                             kReferenceOfWorst * WorstSander(chart.triangles, shapes, trial)};
+                             kReferenceOfWorst * WorstContraction(chart.triangles, shapes, trial)};
     if (!(tail.reference > 0)) return;
     Descend(tail, {StepKind::kProjectedNewton, 1, 0, 2}, chart.triangles, shapes, system, poll, trial);
     figures = MeasureStretch(chart, ToPoints(trial, 1.0));

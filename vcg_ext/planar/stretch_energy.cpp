@@ -60,6 +60,13 @@ double Sander(double s1, double s2) {
   return 0.25 * Square((s1 - s2) / area) + 0.5 * Square(area - 1) / area;
 }
 
+// kSander without what it charges for enlarged area: large where something is stretched in the texture's
+// eyes.
+double Contraction(double s1, double s2) {
+  const double area = s1 * s2;
+  return 0.25 * Square((s1 - s2) / area) + (area < 1 ? 0.5 * Square(area - 1) / area : 0.0);
+}
+
 // Derivatives of an energy by s1 and s2, and flip = (d1 - d2) / (s1 - s2), which has a limit at s1 = s2.
 struct ValueDerivatives {
   double d1 = 0, d2 = 0, d11 = 0, d22 = 0, d12 = 0, flip = 0;
@@ -84,15 +91,26 @@ ValueDerivatives DerivativesOf(const StretchEnergy& energy, bool sliver, double 
   v.d12 = 0.5;
   v.flip = 0.5 * (shared - 1);
   if (energy.kind == StretchEnergy::Kind::kSander || sliver) return v;
-  const double x = Sander(s1, s2);
-  const double first = 1 + TailFirst(x, energy.reference), second = TailSecond(x, energy.reference);
+  ValueDerivatives x = v;  // of Contraction
+  const double area = s1 * s2;
+  if (area > 1) {
+    const double price = 0.5 * (1 - 1 / (area * area)), price2 = 1 / (area * area * area);
+    x.d1 -= price * s2;
+    x.d2 -= price * s1;
+    x.d11 -= price2 * s2 * s2;
+    x.d22 -= price2 * s1 * s1;
+    x.d12 -= price2 * area + price;
+    x.flip += price;
+  }
+  const double value = Contraction(s1, s2);
+  const double first = TailFirst(value, energy.reference), second = TailSecond(value, energy.reference);
   ValueDerivatives w;
-  w.d1 = first * v.d1;
-  w.d2 = first * v.d2;
-  w.d11 = first * v.d11 + second * v.d1 * v.d1;
-  w.d22 = first * v.d22 + second * v.d2 * v.d2;
-  w.d12 = first * v.d12 + second * v.d1 * v.d2;
-  w.flip = first * v.flip;
+  w.d1 = v.d1 + first * x.d1;
+  w.d2 = v.d2 + first * x.d2;
+  w.d11 = v.d11 + first * x.d11 + second * x.d1 * x.d1;
+  w.d22 = v.d22 + first * x.d22 + second * x.d2 * x.d2;
+  w.d12 = v.d12 + first * x.d12 + second * x.d1 * x.d2;
+  w.flip = v.flip + first * x.flip;
   return w;
 }
 
@@ -114,6 +132,11 @@ void ClampNegative(double& a, double& b, double& c) {
 
 }  // namespace
 
+double TriangleContraction(const RestShape& shape, const Complex& e1, const Complex& e2) {
+  const LinearMap map = MapOf(shape, e1, e2);
+  return Contraction(map.s1, map.s2);
+}
+
 double TriangleEnergy(const StretchEnergy& energy, const RestShape& shape, const Complex& e1,
                       const Complex& e2) {
   const double infinity = std::numeric_limits<double>::infinity();
@@ -129,7 +152,7 @@ double TriangleEnergy(const StretchEnergy& energy, const RestShape& shape, const
   } else {
     value = Sander(s1, s2);
     if (energy.kind == StretchEnergy::Kind::kSanderTail && !shape.sliver) {
-      value += Tail(value, energy.reference);
+      value += Tail(Contraction(s1, s2), energy.reference);
     }
   }
   return std::isfinite(value) ? value : infinity;

@@ -13,16 +13,21 @@ struct StretchEnergy {
     kSymmetricDirichlet,  ///< (s1^2 + s2^2 + s1^-2 + s2^-2) / 4 - 1
     kSander,              ///< (s1^-2 + s2^-2) / 4 + s1 s2 / 2 - 1: least where the L2 stretch of
                           ///< [SSGH01] is, with the scale left free
-    kSanderTail           ///< x + 10 / 6 reference (x / reference)^6 where x is kSander: also lowers the
-                          ///< worst triangles; plain kSander in slivers, which would otherwise govern it
+    kSanderTail           ///< kSander + 10 / 6 reference (x / reference)^6 where x is TriangleContraction:
+                          ///< also lowers the worst stretch; plain kSander in slivers, which would
+                          ///< otherwise govern it
   };
   Kind kind = Kind::kSymmetricDirichlet;
-  double reference = 1;  ///< of kSanderTail: about the largest kSander in the map, > 0
+  double reference = 1;  ///< of kSanderTail: about the largest contraction in the map, > 0
 };
 
 /// The energy of a triangle without its weight, +infinity unless its UV area is positive.
 double TriangleEnergy(const StretchEnergy& energy, const RestShape& shape, const Complex& e1,
                       const Complex& e2);
+
+/// kSander without the price of enlarged area (the last terms, where s1 s2 > 1): what stretches the texture
+/// on the surface. The triangle must have a positive UV area.
+double TriangleContraction(const RestShape& shape, const Complex& e1, const Complex& e2);
 
 /// First and second derivatives of the energy by alpha and beta, weight included. The second ones map
 /// (x, y) to (m_alpha x + d_alpha conj(x) + cross_linear y + cross_antilinear conj(y),
