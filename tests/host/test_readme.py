@@ -26,7 +26,7 @@ def test_python_example_runs(tmp_path):
 
 
 def test_every_file_that_is_named_exists():
-    named = set(re.findall(r"(?:scripts|examples|meshes|docs|vcg_ext|filter_dcharts)/[\w./]*", README))
+    named = set(re.findall(r"(?:scripts|examples|meshes|docs|vcg_ext|filter_dcharts)/[\w./-]*", README))
     assert len(named) > 15
     for name in named:
         name = name.rstrip(".")
