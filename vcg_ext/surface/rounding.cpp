@@ -44,16 +44,25 @@ class Mender {
     for (size_t k = 0; k < triangles_.size(); ++k) faces_[fill[triangles_[k]]++] = static_cast<int>(k / 3);
   }
 
-  // The place within a few steps that leaves the fewest bad faces around the vertex; nearest first.
+  // The place within a few steps that mends the most faces around the vertex and spoils none; nearest first.
   void MoveVertex(int v, int step) {
+    std::vector<int> good;
+    int fewest = 0;
+    for (int k = start_[v]; k < start_[v + 1]; ++k) {
+      if (Area(faces_[k]) > 0)
+        good.push_back(faces_[k]);
+      else
+        ++fewest;
+    }
     auto bad_around = [&] {
+      for (int f : good)
+        if (Area(f) <= 0) return fewest;
       int bad = 0;
       for (int k = start_[v]; k < start_[v + 1]; ++k) bad += Area(faces_[k]) <= 0;
       return bad;
     };
     const std::int32_t x0 = x_[v], y0 = y_[v];
     std::int32_t best_x = x0, best_y = y0;
-    int fewest = bad_around();
     constexpr int kReach = 3;
     for (int ring = 1; ring <= kReach && fewest > 0; ++ring)
       for (int dy = -ring; dy <= ring; ++dy)
