@@ -30,6 +30,8 @@ class Mender {
  private:
   int FaceCount() const { return static_cast<int>(triangles_.size() / 3); }
 
+  static bool InRange(std::int32_t c) { return c >= 0 && c <= kTexcoordGrid; }
+
   std::int64_t Area(int f) const {
     const int a = triangles_[3 * f], b = triangles_[3 * f + 1], c = triangles_[3 * f + 2];
     return TwiceArea({x_[a], y_[a], x_[b], y_[b], x_[c], y_[c]});
@@ -70,6 +72,7 @@ class Mender {
           if (std::max(std::abs(dx), std::abs(dy)) != ring) continue;
           x_[v] = x0 + dx * step;
           y_[v] = y0 + dy * step;
+          if (!InRange(x_[v]) || !InRange(y_[v])) continue;
           const int bad = bad_around();
           if (bad >= fewest) continue;
           fewest = bad;
