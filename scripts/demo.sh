@@ -16,4 +16,9 @@ ensure_apt_packages "${build_packages[@]}"
 ensure_plugin
 ensure_venv numpy Pillow
 name=$(basename "$mesh")
-"$python" -m pymeshlab_dcharts.demo "$mesh" "$repo/out/${name%.*}"
+result=0
+"$python" -m pymeshlab_dcharts.demo "$mesh" "$repo/out/${name%.*}" || result=$?
+# 1 and 2 come with an explanation of their own.
+[ $result -le 2 ] || say "The run in pymeshlab ended with code $result. Remove .venv and run this again to build it anew; if that" \
+  "does not help, please report the mesh and this message."
+exit $result
