@@ -26,6 +26,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Symmetric Dirichlet energies over 4, minus 1, as in StretchEnergy:
 constexpr double kGoodStart = 2;     // a start from angles above it is compared with Tutte's
 constexpr double kNewtonWorks = 3;   // above it Newton steps crawl and reweighted ones don't
+constexpr double kHopeless = 1e3;    // still above it afterwards: the chart has to be cut
 constexpr int kReweightedBlock = 3;  // steps
 constexpr int kMaxBlocks = 40;
 constexpr double kBlockGain = 0.05;  // share of the energy; a block that gains less is the last
@@ -45,15 +46,17 @@ NormalizedChart Normalized(const ChartMesh& chart) {
   normalized.extent = (0.5 * high - 0.5 * low).maxCoeff();
   if (!(normalized.extent > 0)) return normalized;
   positions = ((positions.rowwise() - (0.5 * low + 0.5 * high)) / normalized.extent).eval();
-  double area = 0;
+  double area = 0, largest = 0;
   for (Eigen::Index t = 0; t < chart.triangles.rows(); ++t) {
     const Eigen::RowVector3d corner = positions.row(chart.triangles(t, 0));
     const Eigen::Vector3d e1 = (positions.row(chart.triangles(t, 1)) - corner).transpose();
     const Eigen::Vector3d e2 = (positions.row(chart.triangles(t, 2)) - corner).transpose();
-    area += 0.5 * e1.cross(e2).norm();
+    const double triangle_area = 0.5 * e1.cross(e2).norm();
+    area += triangle_area;
+    largest = std::max(largest, triangle_area);
   }
-  constexpr double kNoArea = 1e-14;  // in units of the extent: what rounding makes of a straight line
-  if (!(area > kNoArea)) return normalized;
+  const Eigen::RowVector3d box = (high - low) / normalized.extent;
+  if (!(largest > kAreaFloor * box.squaredNorm())) return normalized;
   positions /= std::sqrt(area);
   normalized.scale = normalized.extent * std::sqrt(area);
   return normalized;
@@ -106,9 +109,9 @@ double Start(const ChartMesh& chart, const RestShapes& shapes, VertexBlockSystem
   return energy;
 }
 
-// Reweighted steps while the map is bad, then Newton's.
-void MinimizeSymmetricDirichlet(const Triangles& triangles, const RestShapes& shapes, double energy,
-                                VertexBlockSystem& system, const Poll& poll, PlanePoints& uv) {
+// Reweighted steps while the map is bad, then Newton's. Returns the energy reached.
+double MinimizeSymmetricDirichlet(const Triangles& triangles, const RestShapes& shapes, double energy,
+                                  VertexBlockSystem& system, const Poll& poll, PlanePoints& uv) {
   const StretchEnergy dirichlet{Kind::kSymmetricDirichlet};
   for (int block = 0; block < kMaxBlocks && energy > kNewtonWorks; ++block) {
     const double before = energy;
@@ -116,7 +119,7 @@ void MinimizeSymmetricDirichlet(const Triangles& triangles, const RestShapes& sh
         Descend(dirichlet, {StepKind::kReweighted, kReweightedBlock, 0}, triangles, shapes, system, poll, uv);
     if (energy > (1 - kBlockGain) * before) break;
   }
-  Descend(dirichlet, {StepKind::kProjectedNewton, 60, 1e-2}, triangles, shapes, system, poll, uv);
+  return Descend(dirichlet, {StepKind::kProjectedNewton, 60, 1e-2}, triangles, shapes, system, poll, uv);
 }
 
 Points2 ToPoints(const PlanePoints& uv, double factor) {
@@ -208,8 +211,9 @@ Flattening FlattenWithoutArea(const ChartMesh& chart, double extent) {
   Flattening result;
   if (uv) result.uv = ToPoints(*uv, extent > 0 ? kSize * extent : 1.0);
   result.ok = uv && AllAreasPositive(chart.triangles, result.uv);
-  if (!result.ok)
+  if (!result.ok) {
     return Failure("The chart has no area, and no flat start without flipped triangles was found.");
+  }
   result.l2_stretch = result.linf_stretch = 1;
   return result;
 }
@@ -227,11 +231,14 @@ Flattening Flatten(const ChartMesh& chart, const FlattenOptions& options, const 
   RestShapes shapes = RestShapesOf(normalized.mesh);
   VertexBlockSystem system(static_cast<int>(chart.positions.rows()), triangles);
   PlanePoints uv;
-  const double energy = Start(normalized.mesh, shapes, system, poll, uv);
+  double energy = Start(normalized.mesh, shapes, system, poll, uv);
   if (!std::isfinite(energy)) {
     return Failure("No flat start without flipped triangles was found: the chart has to be cut.");
   }
-  MinimizeSymmetricDirichlet(triangles, shapes, energy, system, poll, uv);
+  energy = MinimizeSymmetricDirichlet(triangles, shapes, energy, system, poll, uv);
+  if (energy > kHopeless) {
+    return Failure("The chart can't be flattened without extreme stretch: it has to be cut.");
+  }
   RelaxSlivers(triangles, uv, shapes);
   Descend({Kind::kSander}, {StepKind::kProjectedNewton, 15, 1e-4}, triangles, shapes, system, poll, uv);
   if (options.linf_finish) LowerWorstStretch(normalized.mesh, shapes, system, poll, uv);

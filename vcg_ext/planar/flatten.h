@@ -13,9 +13,11 @@ struct FlattenOptions {
 };
 
 struct Flattening {
-  bool ok = false;          ///< false: no flip-free map was found, the chart needs a cut; `why` says so
-  std::string why;          ///< empty when ok
-  Points2 uv;               ///< #V by 2, finite, every triangle with positive area; UV area = surface area
+  bool ok = false;  ///< false: no flip-free map was found, the chart needs a cut; `why` says so
+  std::string why;  ///< empty when ok
+  Points2 uv;       ///< #V by 2, model units, empty unless ok; finite, every triangle with positive area,
+                    ///< in float32 as well where the chart's extent allows that; UV area = surface
+                    ///< area (a chart without area gets a tiny layout with stretch 1)
   double l2_stretch = 0;    ///< of this chart at its own scale, >= 1
   double linf_stretch = 0;  ///< largest singular value of UV -> surface, at the chart's own scale
 };
