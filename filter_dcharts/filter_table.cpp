@@ -77,11 +77,10 @@ std::vector<ParamSpec> MakeParams() {
        &Params::small_hole_percent, 0, 100},
       // --- merging
       {"merge_threshold", "Merge threshold (eta)",
-       "Two neighbouring charts are joined when the region along their border fits a cylinder with at most "
-       "this mean "
-       "fitting error, without unit. Larger values give fewer charts with more stretch; 0.00001 keeps "
+       "Two neighbouring charts are joined when the region along their border fits a cylinder with a mean "
+       "fitting error below this, without unit. Larger values give fewer charts with more stretch; 0.00001 keeps "
        "mechanical parts "
-       "strictly developable; 0 joins only across regions that fit exactly.",
+       "strictly developable; 0 joins none.",
        &Params::merge_threshold, 0, 4},
       // --- cuts
       {"dart_fitting_error", "Fitting error that gets a dart",

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "common/errors.h"
+#include "planar/row_runs.h"
 
 namespace dcharts {
 namespace {
@@ -66,182 +68,221 @@ Points2 Turned(const Points2& points, double angle) {
   return points * r.transpose();
 }
 
-/// A chart's outline seen column by column, in texels, padding included.
-struct Profile {
-  std::vector<double> low, high;  // per column
-  double height = 0;
-};
-
-// `outline` in texels with its box's lower left corner at the origin. `margin` is added all around.
-Profile ProfileOf(const Points2& outline, double margin) {
-  const double width = outline.col(0).maxCoeff() + 2 * margin;
-  const int columns = std::max(1, static_cast<int>(std::ceil(width)));
-  Profile profile;
-  profile.low.assign(columns, std::numeric_limits<double>::infinity());
-  profile.high.assign(columns, -std::numeric_limits<double>::infinity());
-  for (Eigen::Index e = 0; e + 1 < outline.rows(); e += 2) {
-    Eigen::Vector2d a = outline.row(e), b = outline.row(e + 1);
-    if (a.x() > b.x()) std::swap(a, b);
-    // The edge with a square of the margin around it covers these columns...
-    const int first = std::max(0, static_cast<int>(std::floor(a.x())));
-    const int last = std::min(columns - 1, static_cast<int>(std::floor(b.x() + 2 * margin)));
-    for (int c = first; c <= last; ++c) {
-      // ... and in column c, edge points with x in [c - 2 margin, c + 1] count (margin is added to x below).
-      const double from = std::clamp(c - 2 * margin, a.x(), b.x()), to = std::clamp(c + 1.0, a.x(), b.x());
-      auto y_at = [&](double x) {
-        const double dx = b.x() - a.x();
-        return dx > 0 ? a.y() + (b.y() - a.y()) * (x - a.x()) / dx : a.y();
-      };
-      double low = std::min(y_at(from), y_at(to)), high = std::max(y_at(from), y_at(to));
-      if (!(b.x() > a.x())) {
-        low = std::min(a.y(), b.y());
-        high = std::max(a.y(), b.y());
-      }
-      profile.low[c] = std::min(profile.low[c], low);
-      profile.high[c] = std::max(profile.high[c], high + 2 * margin);
-    }
-  }
-  for (int c = 0; c < columns; ++c) {
-    if (profile.low[c] > profile.high[c]) profile.low[c] = profile.high[c] = 0;
-    profile.height = std::max(profile.height, profile.high[c]);
-  }
-  return profile;
+double EnclosedArea(const Points2& outline) {
+  double twice = 0;
+  for (Eigen::Index e = 0; e + 1 < outline.rows(); e += 2)
+    twice += outline(e, 0) * outline(e + 1, 1) - outline(e, 1) * outline(e + 1, 0);
+  return std::abs(twice) / 2;
 }
 
-/// Drops charts onto a horizon in a square of `side` texels.
-class Horizon {
+/// A square of cells, some taken. Remembers per cell the nearest taken one to its left, so that a run is
+/// tested at once.
+class Board {
  public:
-  explicit Horizon(int side) : side_(side), height_(side, 0) {}
+  explicit Board(int side) : side_(side), taken_before_(static_cast<size_t>(side) * side, -1) {}
 
-  /// The lowest place for the profile; false when it doesn't fit. Ties go to the place that wastes least.
-  bool Find(const Profile& p, int* x, double* y, double* top) const {
-    const int columns = static_cast<int>(p.low.size());
-    double best_top = std::numeric_limits<double>::infinity(), best_waste = best_top;
-    for (int left = 0; left + columns <= side_; ++left) {
-      double rest = 0;
-      for (int c = 0; c < columns; ++c) rest = std::max(rest, height_[left + c] - p.low[c]);
-      const double top_here = rest + p.height;
-      if (top_here > side_ || top_here > best_top + 1) continue;
-      double waste = 0;
-      for (int c = 0; c < columns; ++c) waste += rest + p.low[c] - height_[left + c];
-      if (top_here > best_top - 1 && waste >= best_waste) continue;
-      best_top = top_here;
-      best_waste = waste;
-      *x = left;
-      *y = rest;
+  /// Finds the place for `cells` with the smallest max(x + width, y + height), below `bound`; ties go to the
+  /// lower place.
+  bool Find(const RowRuns& cells, int bound, int* best_x, int* best_y) const {
+    bool found = false;
+    const int height = cells.Height();
+    for (int y = 0; y + height < bound; ++y) {
+      int x = 0, row = 0, free_rows = 0;
+      while (free_rows < height && x + cells.width < bound) {
+        const int skip = Conflict(cells.rows[row], y + row, x);
+        if (skip > 0) {
+          x += skip;
+          free_rows = 0;
+          continue;  // with this row: the one that is in the way is likely to be so again
+        }
+        ++free_rows;
+        row = row + 1 < height ? row + 1 : 0;
+      }
+      if (free_rows < height || x + cells.width >= bound) continue;
+      found = true;
+      *best_x = x;
+      *best_y = y;
+      bound = std::max(x + cells.width, y + height);
     }
-    *top = best_top + 1e-3 * best_waste / side_;
-    return best_top <= side_;
+    return found;
   }
 
-  void Place(const Profile& p, int x, double y) {
-    for (size_t c = 0; c < p.low.size(); ++c) height_[x + c] = std::max(height_[x + c], y + p.high[c]);
+  void Take(const RowRuns& cells, int x, int y) {
+    for (int row = 0; row < cells.Height(); ++row) {
+      std::int16_t* taken = taken_before_.data() + static_cast<size_t>(y + row) * side_;
+      for (const Run& run : cells.rows[row]) {
+        for (int c = x + run.first; c <= x + run.last; ++c) taken[c] = static_cast<std::int16_t>(c);
+        for (int c = x + run.last + 1; c < side_ && taken[c] < x + run.last; ++c)
+          taken[c] = static_cast<std::int16_t>(x + run.last);
+      }
+    }
   }
 
  private:
+  // How far to move right until the row's first run in conflict is free of it; 0 when none is.
+  int Conflict(const std::vector<Run>& runs, int y, int x) const {
+    const std::int16_t* taken = taken_before_.data() + static_cast<size_t>(y) * side_;
+    for (const Run& run : runs) {
+      const int before = taken[x + run.last];
+      if (before >= x + run.first) return before - (x + run.first) + 1;
+    }
+    return 0;
+  }
+
   int side_;
-  std::vector<double> height_;
+  std::vector<std::int16_t> taken_before_;
 };
 
 class Packer {
  public:
-  Packer(const std::vector<Points2>& outlines, bool rotate, int side) : outlines_(outlines), side_(side) {
+  Packer(const std::vector<Points2>& outlines, bool rotate, const std::function<void()>& poll)
+      : outlines_(outlines), poll_(poll) {
+    const int turns = !rotate ? 1 : outlines.size() <= 200 ? 16 : outlines.size() <= 5000 ? 8 : 4;
     for (const Points2& outline : outlines) {
-      std::vector<double> angles{0};
-      if (rotate) {
-        const double upright = UprightAngle(outline);
-        angles = {upright, upright + kPi, upright + kPi / 2, upright - kPi / 2};
+      std::vector<Turn> angles;
+      const double upright = rotate ? UprightAngle(outline) : 0;
+      for (int k = 0; k < turns; ++k) {
+        Turn turn;
+        turn.angle = upright + 2 * kPi * k / turns;
+        turn.outline = Turned(outline, turn.angle);
+        turn.corner = turn.outline.colwise().minCoeff();
+        turn.outline.rowwise() -= turn.corner;
+        turn.size = turn.outline.colwise().maxCoeff().maxCoeff();
+        angles.push_back(std::move(turn));
       }
-      angles_.push_back(angles);
-      const Points2 turned = Turned(outline, angles[0]);
-      height_.push_back(turned.col(1).maxCoeff() - turned.col(1).minCoeff());
+      turns_.push_back(std::move(angles));
+      area_.push_back(EnclosedArea(outline));
     }
-    order_.resize(outlines.size());
-    std::iota(order_.begin(), order_.end(), 0);
-    std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) { return height_[a] > height_[b]; });
   }
 
-  /// Texels per unit `scale`, `margin` texels around each chart. Placements are in texels.
-  bool Try(double scale, double margin, std::vector<Placement>* placements) const {
-    Horizon horizon(side_);
+  double TotalArea() const { return std::accumulate(area_.begin(), area_.end(), 0.0); }
+  double LongestSide() const {
+    double longest = 0;
+    for (const auto& turns : turns_) longest = std::max(longest, turns.front().size);
+    return longest;
+  }
+
+  /// Charts in the order of `key`, largest first.
+  std::vector<int> OrderBy(double area_share) const {
+    std::vector<int> order(outlines_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::vector<double> key(outlines_.size());
+    for (size_t k = 0; k < key.size(); ++k)
+      key[k] = std::pow(area_[k], area_share / 2) * std::pow(turns_[k].front().size, 1 - area_share);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key[a] > key[b]; });
+    return order;
+  }
+
+  /// Places all charts at `scale` cells per unit. Returns the side of the square they take, in cells; 0 when
+  /// it would be `bound` or more. Placements are in cells.
+  int Try(const std::vector<int>& order, double scale, double margin, int bound,
+          std::vector<Placement>* placements) const {
+    Board board(bound);
     placements->assign(outlines_.size(), {});
-    for (int k : order_) {
-      double best_top = std::numeric_limits<double>::infinity(), best_y = 0;
-      int best_x = -1;
-      Profile best_profile;
-      for (double angle : angles_[k]) {
-        Points2 texels = scale * Turned(outlines_[k], angle);
-        const Eigen::RowVector2d corner = texels.colwise().minCoeff();
-        texels.rowwise() -= corner;
-        Profile profile = ProfileOf(texels, margin);
-        int x = 0;
-        double y = 0, top = 0;
-        if (!horizon.Find(profile, &x, &y, &top) || top >= best_top) continue;
-        best_top = top;
+    int side = 0;
+    for (int k : order) {
+      if (poll_) poll_();
+      // Inside the square that is taken anyway, the place nearest to its corner; else where the square grows
+      // least.
+      int best_x = -1, best_y = 0, best_end = bound;
+      double best_score = std::numeric_limits<double>::infinity();
+      RowRuns best_cells;
+      const Turn* best_turn = nullptr;
+      for (const Turn& turn : turns_[k]) {
+        RowRuns cells = CoveredCells(scale * turn.outline, margin);
+        int x = 0, y = 0;
+        if (!board.Find(cells, std::min(bound, std::max(best_end, side) + 1), &x, &y)) continue;
+        const int end = std::max(x + cells.width, y + cells.Height());
+        const double score = std::max(end, side) + 1e-3 * (x + y + 0.5 * cells.width + 0.5 * cells.Height());
+        if (score >= best_score) continue;
+        best_score = score;
         best_x = x;
         best_y = y;
-        best_profile = std::move(profile);
-        (*placements)[k].angle = angle;
-        (*placements)[k].offset = Eigen::Vector2d(x + margin, y + margin) - corner.transpose();
+        best_end = end;
+        best_cells = std::move(cells);
+        best_turn = &turn;
       }
-      if (best_x < 0) return false;
-      horizon.Place(best_profile, best_x, best_y);
+      if (best_x < 0) return 0;
+      board.Take(best_cells, best_x, best_y);
+      side = std::max(side, best_end);
+      (*placements)[k].angle = best_turn->angle;
+      (*placements)[k].offset =
+          Eigen::Vector2d(best_x + margin, best_y + margin) - scale * best_turn->corner.transpose();
     }
-    return true;
+    return side;
   }
 
  private:
-  const std::vector<Points2>& outlines_;
-  int side_;
-  std::vector<std::vector<double>> angles_;
-  std::vector<double> height_;
-  std::vector<int> order_;
-};
+  struct Turn {
+    double angle = 0;
+    Points2 outline;  // turned, with its box's lower left corner at the origin
+    Eigen::RowVector2d corner;
+    double size = 0;  // longer side of the box
+  };
 
-double BoxArea(const Points2& p) {
-  const Eigen::RowVector2d size = p.colwise().maxCoeff() - p.colwise().minCoeff();
-  return size.x() * size.y();
-}
+  const std::vector<Points2>& outlines_;
+  const std::function<void()>& poll_;
+  std::vector<std::vector<Turn>> turns_;
+  std::vector<double> area_;
+};
 
 }  // namespace
 
-Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options) {
+Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
+             const std::function<void()>& poll) {
   Packing packing;
   if (outlines.empty()) return packing;
-  // Columns finer than this gain nothing; coarser ones waste room when charts are many.
-  const int finest = outlines.size() > 1500 ? 2048 : 1024;
-  const int side = std::clamp(options.texture_size, 256, finest);
-  const Packer packer(outlines, options.rotate, side);
-  double area = 0;
-  for (const Points2& outline : outlines) area += BoxArea(outline);
+  const Packer packer(outlines, options.rotate, poll);
+  // Cells along the square: fine ones fit charts closely, but cost time; many charts need many.
+  const int cells = outlines.size() <= 100 ? 512 : outlines.size() <= 5000 ? 1024 : 2048;
+  const int bound = 2 * cells;
+  constexpr double kLikelyUse = 0.7;  // of the square
+  double scale = cells / std::max(std::sqrt(packer.TotalArea() / kLikelyUse), packer.LongestSide() * 1.02);
 
-  // The largest scale, to half a per cent, from one that certainly doesn't fit. Padding gives way when
-  // nothing fits.
+  // The scale in texels is known only when all are placed, so the margin is a guess that must prove large
+  // enough.
+  struct Found {
+    double units = std::numeric_limits<double>::infinity();  // side of the square in units of the charts
+    double scale = 1;
+    int side = 1;
+    std::vector<Placement> placements;
+  } best;
   double padding = options.padding;
-  const double upper = 2.0 * side / std::sqrt(std::max(area, 1e-300));
-  std::vector<Placement> found, trial;
-  double scale = 0;
-  for (int attempt = 0; scale == 0; ++attempt, padding /= 2) {
-    if (attempt == 30)
-      throw Error("The charts don't fit into the texture: raise texture_size or lower padding.");
-    // Charts keep a hair more than the padding, so that rounding doesn't eat into it.
-    const double margin = (padding + 0.05) * side / options.texture_size / 2;
-    double low = 0, high = upper;
-    for (int step = 0; step < 60 && (low == 0 || high / low > 1.004); ++step) {
-      const double middle = low == 0 ? high * 0.8 : std::sqrt(low * high);
-      if (packer.Try(middle, margin, &trial)) {
-        low = middle;
-        found = trial;
-      } else {
-        high = middle;
+  const std::vector<double> order_shares =
+      outlines.size() <= 200 ? std::vector<double>{0.5, 1, 0} : std::vector<double>{0.5};
+  for (int attempt = 0; best.placements.empty(); ++attempt) {
+    if (attempt == 40)
+      throw Error(
+          "The charts don't fit into the texture: raise texture_size, lower padding, or take fewer charts.");
+    for (double share : order_shares) {
+      const std::vector<int> order = packer.OrderBy(share);
+      double side_guess = cells;
+      for (int pass = 0; pass < 4; ++pass) {
+        // A hair more than the padding, so that rounding doesn't eat into it.
+        const double margin = (padding + 0.05) / 2 * side_guess / options.texture_size;
+        Found found;
+        found.scale = scale;
+        found.side = packer.Try(order, scale, margin, bound, &found.placements);
+        if (found.side == 0) break;
+        if (found.side <= side_guess * (1 + 1e-9)) {
+          found.units = found.side / scale;
+          if (found.units < best.units) best = std::move(found);
+          if (found.side > side_guess * 0.99 || pass > 0) break;
+        }
+        side_guess = found.side * (pass == 0 ? 1.0 : 1.01);
       }
     }
-    if (low > upper * 1e-3 || padding < 1e-3) scale = low;
-    packing.padding = padding;
+    if (!best.placements.empty()) {
+      packing.padding = padding;
+      break;
+    }
+    // Too many charts for these cells: smaller ones, and less padding.
+    scale *= 0.8;
+    if (attempt >= 2) padding /= 2;
   }
-  packing.scale = scale / side;
-  for (Placement& p : found) p.offset /= side;
-  packing.placements = std::move(found);
+  packing.scale = best.scale / best.side;
+  for (Placement& p : best.placements) p.offset /= best.side;
+  packing.placements = std::move(best.placements);
   return packing;
 }
 

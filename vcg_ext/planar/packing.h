@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "planar/chart_mesh.h"
@@ -9,7 +10,7 @@ namespace dcharts {
 
 struct PackOptions {
   int texture_size = 1024;  ///< texels
-  int padding = 2;          ///< texels between charts
+  int padding = 2;          ///< texels between charts; half as many along the edge of the texture
   bool rotate = true;       ///< turn charts; otherwise they keep their direction
 };
 
@@ -22,13 +23,15 @@ struct Placement {
 struct Packing {
   double scale = 1;  ///< the same for all charts
   double padding =
-      0;  ///< texels that the charts really are apart: less than asked when there are too many of them
+      0;  ///< texels that charts are at least apart: less than asked when there are too many of them
   std::vector<Placement> placements;
 };
 
-/// Packs charts into the unit square as [LPRM02] do: tall ones first, each dropped onto the horizon of those
-/// before where it rests lowest, by the profile of its own outline. One scale for all, the largest that fits.
-/// `outlines`: per chart the end points of its boundary edges, two rows per edge.
-Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options);
+/// Packs charts into the unit square by their true outlines, large ones first, each where it lets the square
+/// grow least (after [LPRM02], with all places of a grid tried instead of a horizon). One scale for all.
+/// `outlines`: per chart the end points of its boundary edges, two rows per edge. `poll` is called now and
+/// then and may throw. Throws Error when there are too many charts for the texture.
+Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
+             const std::function<void()>& poll = {});
 
 }  // namespace dcharts

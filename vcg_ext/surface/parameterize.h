@@ -291,7 +291,8 @@ class Parameterizer {
     std::vector<Points2> outlines;
     for (const auto& r : rows)
       outlines.push_back(Eigen::Map<const Points2>(r.data(), static_cast<Eigen::Index>(r.size() / 2), 2));
-    const Packing packing = Pack(outlines, {params_.texture_size, params_.padding, params_.rotate});
+    const Packing packing =
+        Pack(outlines, {params_.texture_size, params_.padding, params_.rotate}, [&] { progress_.Poll(); });
     if (packing.padding < params_.padding)
       progress_.Log("There are too many charts for the padding asked for: they are " +
                     std::to_string(packing.padding) + " texels apart.");
