@@ -41,6 +41,28 @@ def _docstring(spec):
     return "\n\n".join(parts)
 
 
+_last_refused = None
+
+
+def _method(pymeshlab, spec):
+    run = pymeshlab.bind_function(spec["name"])
+
+    def method(self, **parameters):
+        global _last_refused
+        try:
+            return run(self, **parameters)
+        except pymeshlab.PyMeshLabException:
+            # After a filter has failed, pymeshlab 2025.7 goes on writing to the log of its MeshSet, and ends with a
+            # segmentation fault when that is gone. So the MeshSet stays until the next one takes its place.
+            _last_refused = self
+            raise
+
+    method.__name__ = spec["name"]
+    method.__qualname__ = "MeshSet." + spec["name"]
+    method.__doc__ = _docstring(spec)
+    return method
+
+
 def _load():
     _check_pymeshlab()
     import pymeshlab
@@ -50,9 +72,7 @@ def _load():
     if specs[0]["name"] not in pymeshlab.filter_list():
         pymeshlab.load_plugin(str(PLUGIN))
     for spec in specs:
-        method = pymeshlab.bind_function(spec["name"])
-        method.__doc__ = _docstring(spec)
-        setattr(pymeshlab.MeshSet, spec["name"], method)
+        setattr(pymeshlab.MeshSet, spec["name"], _method(pymeshlab, spec))
     return tuple(spec["name"] for spec in specs)
 
 
