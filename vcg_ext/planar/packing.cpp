@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
+#include <random>
 #include <utility>
 
 #include "common/errors.h"
@@ -162,7 +164,7 @@ class Packer {
     return longest;
   }
 
-  /// Charts in the order of `key`, largest first.
+  /// Charts by size, largest first: by area (share 1), by length (share 0), or between.
   std::vector<int> OrderBy(double area_share) const {
     std::vector<int> order(outlines_.size());
     std::iota(order.begin(), order.end(), 0);
@@ -173,41 +175,48 @@ class Packer {
     return order;
   }
 
-  /// Places all charts at `scale` cells per unit. Returns the side of the square they take, in cells; 0 when
-  /// it would be `bound` or more. Placements are in cells.
-  int Try(const std::vector<int>& order, double scale, double margin, int bound,
-          std::vector<Placement>* placements) const {
+  /// Rasterizes all turns of all charts at `scale` cells per unit, `margin` cells around each.
+  void Rasterize(double scale, double margin) {
+    scale_ = scale;
+    margin_ = margin;
+    for (auto& turns : turns_) {
+      if (poll_) poll_();
+      for (Turn& turn : turns) turn.cells = CoveredCells(scale * turn.outline, margin);
+    }
+  }
+
+  /// Places all charts. Returns the side of the square they take, in cells; 0 when it would be `bound` or
+  /// more. Placements are in cells.
+  int Try(const std::vector<int>& order, int bound, std::vector<Placement>* placements) const {
+    if (poll_) poll_();
     Board board(bound);
     placements->assign(outlines_.size(), {});
     int side = 0;
     for (int k : order) {
-      if (poll_) poll_();
       // Inside the square that is taken anyway, the place nearest to its corner; else where the square grows
       // least.
       int best_x = -1, best_y = 0, best_end = bound;
       double best_score = std::numeric_limits<double>::infinity();
-      RowRuns best_cells;
       const Turn* best_turn = nullptr;
       for (const Turn& turn : turns_[k]) {
-        RowRuns cells = CoveredCells(scale * turn.outline, margin);
         int x = 0, y = 0;
-        if (!board.Find(cells, std::min(bound, std::max(best_end, side) + 1), &x, &y)) continue;
-        const int end = std::max(x + cells.width, y + cells.Height());
-        const double score = std::max(end, side) + 1e-3 * (x + y + 0.5 * cells.width + 0.5 * cells.Height());
+        if (!board.Find(turn.cells, std::min(bound, std::max(best_end, side) + 1), &x, &y)) continue;
+        const int end = std::max(x + turn.cells.width, y + turn.cells.Height());
+        const double score =
+            std::max(end, side) + 1e-3 * (x + y + 0.5 * turn.cells.width + 0.5 * turn.cells.Height());
         if (score >= best_score) continue;
         best_score = score;
         best_x = x;
         best_y = y;
         best_end = end;
-        best_cells = std::move(cells);
         best_turn = &turn;
       }
-      if (best_x < 0) return 0;
-      board.Take(best_cells, best_x, best_y);
+      if (!best_turn) return 0;
+      board.Take(best_turn->cells, best_x, best_y);
       side = std::max(side, best_end);
       (*placements)[k].angle = best_turn->angle;
       (*placements)[k].offset =
-          Eigen::Vector2d(best_x + margin, best_y + margin) - scale * best_turn->corner.transpose();
+          Eigen::Vector2d(best_x + margin_, best_y + margin_) - scale_ * best_turn->corner.transpose();
     }
     return side;
   }
@@ -218,12 +227,14 @@ class Packer {
     Points2 outline;  // turned, with its box's lower left corner at the origin
     Eigen::RowVector2d corner;
     double size = 0;  // longer side of the box
+    RowRuns cells;    // at the present scale and margin
   };
 
   const std::vector<Points2>& outlines_;
   const std::function<void()>& poll_;
   std::vector<std::vector<Turn>> turns_;
   std::vector<double> area_;
+  double scale_ = 1, margin_ = 0;
 };
 
 }  // namespace
@@ -232,58 +243,63 @@ Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
              const std::function<void()>& poll) {
   Packing packing;
   if (outlines.empty()) return packing;
-  const Packer packer(outlines, options.rotate, poll);
+  Packer packer(outlines, options.rotate, poll);
+  const int count = static_cast<int>(outlines.size());
   // Cells along the square: fine ones fit charts closely, but cost time; many charts need many.
-  const int cells = outlines.size() <= 100 ? 512 : outlines.size() <= 5000 ? 1024 : 2048;
-  const int bound = 2 * cells;
-  constexpr double kLikelyUse = 0.7;  // of the square
+  const int cells = count <= 100 ? 512 : count <= 5000 ? 1024 : 2048;
+  constexpr double kLikelyUse = 0.6;  // of the square
   double scale = cells / std::max(std::sqrt(packer.TotalArea() / kLikelyUse), packer.LongestSide() * 1.02);
 
-  // The scale in texels is known only when all are placed, so the margin is a guess that must prove large
-  // enough.
-  struct Found {
-    double units = std::numeric_limits<double>::infinity();  // side of the square in units of the charts
-    double scale = 1;
-    int side = 1;
-    std::vector<Placement> placements;
-  } best;
-  double padding = options.padding;
-  const std::vector<double> order_shares =
-      outlines.size() <= 200 ? std::vector<double>{0.5, 1, 0} : std::vector<double>{0.5};
-  for (int attempt = 0; best.placements.empty(); ++attempt) {
-    if (attempt == 40)
+  // Large charts first is a good rule, not a law: with few charts, a search goes on from the best of these
+  // orders.
+  std::vector<std::vector<int>> orders{packer.OrderBy(0.5)};
+  if (count <= 300) orders.insert(orders.end(), {packer.OrderBy(1), packer.OrderBy(0)});
+  int search_steps = count > 1 ? std::clamp(600 / count, 0, 40) : 0;
+
+  // What a texel is in cells is known only when all are placed: the margin is for a guessed side, which must
+  // prove large enough.
+  double padding = options.padding, guess = cells;
+  for (int attempt = 0;; ++attempt) {
+    if (attempt == 60)
       throw Error(
           "The charts don't fit into the texture: raise texture_size, lower padding, or take fewer charts.");
-    for (double share : order_shares) {
-      const std::vector<int> order = packer.OrderBy(share);
-      double side_guess = cells;
-      for (int pass = 0; pass < 4; ++pass) {
-        // A hair more than the padding, so that rounding doesn't eat into it.
-        const double margin = (padding + 0.05) / 2 * side_guess / options.texture_size;
-        Found found;
-        found.scale = scale;
-        found.side = packer.Try(order, scale, margin, bound, &found.placements);
-        if (found.side == 0) break;
-        if (found.side <= side_guess * (1 + 1e-9)) {
-          found.units = found.side / scale;
-          if (found.units < best.units) best = std::move(found);
-          if (found.side > side_guess * 0.99 || pass > 0) break;
-        }
-        side_guess = found.side * (pass == 0 ? 1.0 : 1.01);
-      }
+    constexpr double kHair = 0.05;  // texels more than the padding, so that rounding doesn't eat into it
+    packer.Rasterize(scale, (padding + kHair) / 2 * guess / options.texture_size);
+    int side = 0;
+    std::vector<int> best_order;
+    std::vector<Placement> placements;
+    auto try_order = [&](const std::vector<int>& order) {
+      const int found = packer.Try(order, side > 0 ? side : 2 * cells, &placements);
+      if (found == 0) return;
+      side = found;
+      best_order = order;
+      packing.placements = placements;
+    };
+    for (const auto& order : orders) try_order(order);
+    std::minstd_rand random;  // seeded alike for every run
+    for (int step = 0; step < search_steps && side > 0; ++step) {
+      std::vector<int> order = best_order;
+      const auto from = random() % order.size(), to = random() % order.size();
+      const int chart = order[from];
+      order.erase(order.begin() + static_cast<std::ptrdiff_t>(from));
+      order.insert(order.begin() + static_cast<std::ptrdiff_t>(to), chart);
+      try_order(order);
     }
-    if (!best.placements.empty()) {
+    if (side > 0 && side <= guess) {
+      packing.scale = scale / side;
       packing.padding = padding;
-      break;
+      for (Placement& p : packing.placements) p.offset /= side;
+      return packing;
     }
-    // Too many charts for these cells: smaller ones, and less padding.
-    scale *= 0.8;
-    if (attempt >= 2) padding /= 2;
+    if (side > 0) {
+      guess = side + 1;
+      orders.assign(1, best_order);
+      search_steps /= 2;
+    } else {  // far too many charts for these cells: smaller ones, then less padding
+      scale *= 0.8;
+      if (attempt >= 2) padding /= 2;
+    }
   }
-  packing.scale = best.scale / best.side;
-  for (Placement& p : best.placements) p.offset /= best.side;
-  packing.placements = std::move(best.placements);
-  return packing;
 }
 
 }  // namespace dcharts

@@ -35,7 +35,7 @@ inline int ChartCount(const ChartIds& ids) {
 /// unassigned.
 inline int ChartIdOfQuality(double quality) {
   constexpr double kLargestId = 2e9;
-  if (!(quality >= -0.01) || quality > kLargestId) return kUnassigned;
+  if (!(quality >= 0) || quality > kLargestId) return kUnassigned;
   const double rounded = std::round(quality);
   return std::abs(quality - rounded) <= 0.01 ? static_cast<int>(rounded) : kUnassigned;
 }

@@ -64,6 +64,7 @@ void FinishAtlas(const Workspace& work, ChartIds& ids, SeamMask& seams, const Pa
   {
     Stage stage("parameterize", "Flattening charts...", from, 0.97, progress, change.report);
     uv = Parameterizer<SurfaceMesh>(work.Surface(), params, progress).Run(ids, seams);
+    DropIneffectiveSeams(work.Surface(), seams);
   }
   Stage stage("measure", "Measuring...", 0.97, 1, progress, change.report);
   work.WriteCharts(ids, change);
@@ -104,7 +105,7 @@ SurfaceChange Straighten(const SurfaceData& mesh, const Params& params, Progress
   SurfaceChange change;
   ChartIds ids = work.ReadFilledCharts(progress);
   {
-    Stage stage("straighten", "Straightening boundaries...", 0, 1, progress, change.report);
+    Stage stage("straighten", "Straightening boundaries...", 0.02, 1, progress, change.report);
     Straightener<SurfaceMesh>(work.Surface(), params, progress).Run(ids);
   }
   return ChartsWritten(work, ids, std::move(change));
@@ -115,7 +116,7 @@ SurfaceChange Merge(const SurfaceData& mesh, const Params& params, Progress& pro
   SurfaceChange change;
   ChartIds ids = work.ReadFilledCharts(progress);
   {
-    Stage stage("merge", "Merging charts...", 0, 1, progress, change.report);
+    Stage stage("merge", "Merging charts...", 0.02, 1, progress, change.report);
     Merger<SurfaceMesh>(work.Surface(), params, progress).Run(ids);
   }
   return ChartsWritten(work, ids, std::move(change));
@@ -127,7 +128,7 @@ SurfaceChange Cut(const SurfaceData& mesh, const Params& params, Progress& progr
   ChartIds ids = work.ReadFilledCharts(progress);
   SeamMask seams;
   {
-    Stage stage("cut", "Cutting darts...", 0, 1, progress, change.report);
+    Stage stage("cut", "Cutting darts...", 0.02, 1, progress, change.report);
     change.report.darts = ChartCutter<SurfaceMesh>(work.Surface(), params, progress).Run(ids, seams);
   }
   work.WriteCharts(ids, change);
@@ -146,10 +147,11 @@ SurfaceChange Parameterize(const SurfaceData& mesh, const Params& params, Progre
   SeamMask seams;
   if (!work.ReadSeams(ids, seams)) {
     progress.Log("No seams that fit the charts: cut as D-Charts: Cut does by default.");
+    Stage stage("cut", "Cutting darts...", 0.02, 0.1, progress, change.report);
     const Params defaults;
     change.report.darts = ChartCutter<SurfaceMesh>(work.Surface(), defaults, progress).Run(ids, seams);
   }
-  FinishAtlas(work, ids, seams, params, progress, 0, change);
+  FinishAtlas(work, ids, seams, params, progress, 0.1, change);
   return change;
 }
 

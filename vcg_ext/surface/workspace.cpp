@@ -31,6 +31,7 @@ ChartIds Workspace::ReadFilledCharts(Progress& progress) const {
   if (unassigned > 0) {
     progress.Log(std::to_string(unassigned) +
                  " faces belong to no chart: filled as D-Charts: Fill does by default.");
+    progress.BeginStage("Filling holes...", 0, 0.02);
     const Params defaults;
     HoleFiller<SurfaceMesh>(surface_, defaults, progress).Run(ids);
   }

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The result belongs to the shape: not to where it stands, how large it is, or how its faces are numbered.
+#include "dcharts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "atlas_checks.h"
+#include "shapes.h"
+
+namespace dcharts {
+namespace {
+
+// No two faces alike, so that no ties are left to the numbering (a regular shape has many: seeds equally far,
+// faces of equal cost; their order decides, and another order gives another result as good).
+SurfaceData Irregular(SurfaceData mesh) {
+  std::mt19937 random(77);
+  std::uniform_real_distribution<double> jitter(-0.004, 0.004);
+  for (auto& p : mesh.vertices) {
+    const double x = p[0], y = p[1], z = p[2];
+    p = {x + 0.1 * std::sin(3 * y + 1) + jitter(random),
+         1.2 * y + 0.08 * std::cos(2 * z + x) + jitter(random), 0.9 * z + 0.07 * x * y + jitter(random)};
+  }
+  return mesh;
+}
+
+std::vector<SurfaceData> Meshes() {
+  return {Irregular(shapes::Sphere(7)), Irregular(shapes::Torus(12)), Irregular(shapes::SaddleRidge(16)),
+          Irregular(shapes::TwoComponents(4))};
+}
+
+struct Outcome {
+  std::vector<double> areas;  // of the charts, as shares of the surface, sorted
+  Report report;
+};
+
+SurfaceChange Atlas(const SurfaceData& mesh, int count) {
+  Params params;
+  params.chart_count = count;
+  Progress progress;
+  return TextureAtlas(mesh, params, progress);
+}
+
+Outcome OutcomeOf(const SurfaceData& mesh, int count) {
+  const SurfaceChange atlas = Atlas(mesh, count);
+  Outcome outcome;
+  outcome.report = atlas.report;
+  outcome.areas.assign(*atlas.report.charts, 0);
+  const double total = test::TotalArea(mesh);
+  for (size_t f = 0; f < mesh.faces.size(); ++f)
+    outcome.areas[atlas.chart_ids[f]] += test::FaceArea(mesh, f) / total;
+  std::sort(outcome.areas.begin(), outcome.areas.end());
+  return outcome;
+}
+
+void ExpectAlike(const SurfaceData& changed, const SurfaceData& mesh, int count, double tolerance) {
+  const Outcome a = OutcomeOf(mesh, count), b = OutcomeOf(changed, count);
+  ASSERT_EQ(a.areas.size(), b.areas.size());
+  for (size_t c = 0; c < a.areas.size(); ++c) EXPECT_NEAR(a.areas[c], b.areas[c], tolerance) << c;
+  EXPECT_EQ(a.report.iterations, b.report.iterations);
+  EXPECT_EQ(a.report.darts, b.report.darts);
+  EXPECT_NEAR(*a.report.seam_length, *b.report.seam_length, tolerance * 100);
+  EXPECT_NEAR(*a.report.l2_stretch, *b.report.l2_stretch, 1e-4);
+}
+
+void ForAll(double tolerance, const std::function<void(SurfaceData&)>& change,
+            const std::vector<SurfaceData>& meshes = Meshes()) {
+  int k = 0;
+  for (const SurfaceData& mesh : meshes)
+    for (int count : {0, 6}) {
+      SCOPED_TRACE("mesh " + std::to_string(k++ / 2) + ", chart_count " + std::to_string(count));
+      SurfaceData changed = mesh;
+      change(changed);
+      ExpectAlike(changed, mesh, count, tolerance);
+    }
+}
+
+TEST(Invariance, Rotation) {
+  ForAll(1e-9, [](SurfaceData& mesh) {
+    const double a = 0.9, b = 2.1;
+    for (auto& p : mesh.vertices) {
+      const double x = std::cos(a) * p[0] - std::sin(a) * p[1], y = std::sin(a) * p[0] + std::cos(a) * p[1];
+      p = {x, std::cos(b) * y - std::sin(b) * p[2], std::sin(b) * y + std::cos(b) * p[2]};
+    }
+  });
+}
+
+TEST(Invariance, SmallAndLargeScale) {
+  for (double factor : {1e-10, 1e10})
+    ForAll(1e-9, [&](SurfaceData& mesh) {
+      for (auto& p : mesh.vertices)
+        for (double& x : p) x *= factor;
+    });
+}
+
+TEST(Invariance, PowersOfTwoChangeNoByte) {
+  for (const SurfaceData& mesh : Meshes())
+    for (int exponent : {-300, -20, 20, 300}) {
+      SurfaceData scaled = mesh;
+      for (auto& p : scaled.vertices)
+        for (double& x : p) x = std::ldexp(x, exponent);
+      const SurfaceChange a = Atlas(mesh, 4), b = Atlas(scaled, 4);
+      EXPECT_EQ(a.chart_ids, b.chart_ids) << exponent;
+      EXPECT_TRUE(a.wedge_texcoords == b.wedge_texcoords) << exponent;
+      EXPECT_NEAR(*a.report.seam_length, *b.report.seam_length, 1e-9) << exponent;
+    }
+}
+
+TEST(Invariance, Translation) {
+  ForAll(1e-9, [](SurfaceData& mesh) {
+    for (auto& p : mesh.vertices) p = {p[0] + 1000, p[1] - 500, p[2] + 3};
+  });
+}
+
+TEST(Invariance, NumberingOfVertices) {
+  ForAll(1e-9, [](SurfaceData& mesh) {
+    std::vector<int> place(mesh.vertices.size());
+    std::iota(place.begin(), place.end(), 0);
+    std::mt19937 random(4);
+    std::shuffle(place.begin(), place.end(), random);
+    const auto old = mesh.vertices;
+    for (size_t v = 0; v < old.size(); ++v) mesh.vertices[place[v]] = old[v];
+    for (auto& face : mesh.faces)
+      for (int& v : face) v = place[v];
+  });
+}
+
+// Not for several components: the first seed of a component that has none yet is a tie (all its faces are
+// infinitely far), which the numbering decides.
+TEST(Invariance, NumberingOfFacesAndCorners) {
+  std::vector<SurfaceData> connected = Meshes();
+  connected.pop_back();
+  ForAll(
+      1e-9,
+      [](SurfaceData& mesh) {
+        std::mt19937 random(6);
+        std::shuffle(mesh.faces.begin(), mesh.faces.end(), random);
+        for (auto& face : mesh.faces) std::rotate(face.begin(), face.begin() + random() % 3, face.end());
+      },
+      connected);
+}
+
+TEST(Invariance, MirrorImage) {
+  ForAll(1e-9, [](SurfaceData& mesh) {
+    for (auto& p : mesh.vertices) p[0] = -p[0];
+    for (auto& face : mesh.faces) std::swap(face[1], face[2]);
+  });
+}
+
+TEST(Invariance, TwiceInARow) {
+  for (const SurfaceData& mesh : Meshes()) {
+    const SurfaceChange a = Atlas(mesh, 0), b = Atlas(mesh, 0);
+    EXPECT_EQ(a.chart_ids, b.chart_ids);
+    EXPECT_TRUE(a.wedge_texcoords == b.wedge_texcoords);
+    EXPECT_EQ(a.colors, b.colors);
+    EXPECT_EQ(a.report.l2_stretch, b.report.l2_stretch);
+    EXPECT_EQ(a.report.packing_efficiency, b.report.packing_efficiency);
+  }
+}
+
+}  // namespace
+}  // namespace dcharts

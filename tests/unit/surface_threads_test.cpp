@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The same bytes whatever the number of threads.
+#include "dcharts.h"
+
+#ifdef _OPENMP
+#include <omp.h>
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/parallel.h"
+#include "shapes.h"
+
+namespace dcharts {
+namespace {
+
+/// Sets the number of threads and puts it back.
+class Threads {
+ public:
+  explicit Threads(int count) : before_(omp_get_max_threads()) { omp_set_num_threads(count); }
+  ~Threads() { omp_set_num_threads(before_); }
+
+ private:
+  int before_;
+};
+
+TEST(Threads, AnyNumberGivesTheSameBytes) {
+  for (const SurfaceData& mesh : {shapes::Plush(32), shapes::Torus(14), shapes::CadPart(24)}) {
+    Params params;
+    params.chart_count = 14;
+    std::vector<SurfaceChange> results;
+    for (int count : {1, 2, 8}) {
+      const Threads threads(count);
+      Progress progress;
+      results.push_back(TextureAtlas(mesh, params, progress));
+    }
+    for (const SurfaceChange& result : results) {
+      EXPECT_EQ(result.chart_ids, results[0].chart_ids);
+      EXPECT_TRUE(result.wedge_texcoords == results[0].wedge_texcoords);
+      EXPECT_EQ(result.report.l2_stretch, results[0].report.l2_stretch);
+      EXPECT_EQ(result.report.linf_stretch, results[0].report.linf_stretch);
+      EXPECT_EQ(result.report.seam_length, results[0].report.seam_length);
+    }
+  }
+}
+
+TEST(Threads, EveryItemIsDoneOnce) {
+  for (int count : {1, 2, 8}) {
+    const Threads threads(count);
+    std::vector<int> done(1000, 0);
+    Progress progress;
+    ParallelFor(1000, progress, [&](int k, const auto& poll) {
+      poll();
+      ++done[k];
+    });
+    EXPECT_EQ(done, std::vector<int>(1000, 1));
+    ParallelFor(0, progress, [](int, const auto&) { FAIL(); });
+  }
+}
+
+TEST(Threads, AnErrorStopsAllAndComesOut) {
+  for (int count : {1, 2, 8}) {
+    const Threads threads(count);
+    Progress progress;
+    try {
+      ParallelFor(1000, progress, [](int k, const auto&) {
+        if (k == 37) throw Error("item 37");
+      });
+      FAIL() << "no error";
+    } catch (const Cancelled&) {
+      FAIL() << "an error is no cancelling";
+    } catch (const Error& error) {
+      EXPECT_STREQ(error.what(), "item 37");
+    }
+  }
+}
+
+// Only the calling thread asks; with others at work it may get few items, even none.
+TEST(Threads, CancellingStopsAll) {
+  for (int count : {1, 2, 8}) {
+    const Threads threads(count);
+    int calls = 0;
+    bool cancelled = false;
+    Progress progress([&](int, const char*) { return ++calls < 5; });
+    try {
+      ParallelFor(1000, progress, [](int, const auto& poll) {
+        for (int i = 0; i < 10; ++i) poll();
+      });
+    } catch (const Cancelled&) {
+      cancelled = true;
+    }
+    EXPECT_EQ(cancelled, calls >= 5) << count;
+    EXPECT_LE(calls, 5) << count;
+    if (count == 1) {
+      EXPECT_EQ(calls, 5);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dcharts
+#endif
