@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/merge.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "surface_fixture.h"
+
+namespace dcharts {
+namespace {
+
+using test::TestSurface;
+
+ChartIds Merged(const TestSurface& surface, ChartIds ids, double threshold = Params().merge_threshold) {
+  Params params;
+  params.merge_threshold = threshold;
+  Progress progress;
+  Merger<SurfaceMesh>(*surface, params, progress).Run(ids);
+  return ids;
+}
+
+ChartIds Octants(const TestSurface& surface) {
+  return surface.Paint(
+      [](const auto& p) { return (p[0] > 0 ? 1 : 0) + (p[1] > 0 ? 2 : 0) + (p[2] > 0 ? 4 : 0); });
+}
+
+TEST(Merge, HalvesOfAPlaneMerge) {
+  const TestSurface surface(shapes::Grid(10, 10));
+  const ChartIds ids = surface.Paint([](const auto& p) { return p[0] < 0.5 ? 0 : 1; });
+  EXPECT_EQ(Merged(surface, ids), ChartIds(surface->FaceCount(), 0));
+  EXPECT_EQ(Merged(surface, ids, 1e-5), ChartIds(surface->FaceCount(), 0)) << "exactly developable";
+}
+
+TEST(Merge, AllPiecesOfAPlaneMerge) {
+  const TestSurface surface(shapes::Grid(12, 12));
+  const ChartIds ids = surface.Paint(
+      [](const auto& p) { return static_cast<int>(p[0] * 4) + 4 * static_cast<int>(p[1] * 4); });
+  ASSERT_EQ(ChartCount(ids), 16);
+  EXPECT_EQ(ChartCount(Merged(surface, ids, 1e-5)), 1);
+}
+
+TEST(Merge, StripesOfACylinderMerge) {
+  const TestSurface surface(shapes::OpenCylinder(24));
+  const ChartIds ids =
+      surface.Paint([](const auto& p) { return static_cast<int>((std::atan2(p[1], p[0]) + 3.15) / 1.06); });
+  ASSERT_EQ(ChartCount(ids), 6);
+  EXPECT_EQ(ChartCount(Merged(surface, ids, 1e-5)), 1);
+}
+
+TEST(Merge, TwoSidesOfACubeEdgeMerge) {
+  // Two squares that meet at a right angle: a straight crease is developable.
+  SurfaceData mesh = shapes::Grid(12, 6);
+  for (auto& p : mesh.vertices)
+    if (p[0] > 0.5) p = {0.5, p[1], p[0] - 0.5};
+  const TestSurface surface(mesh);
+  const ChartIds ids = surface.Paint([](const auto& p) { return p[2] > 1e-9 ? 1 : 0; });
+  EXPECT_EQ(Merged(surface, ids, 1e-5), ChartIds(surface->FaceCount(), 0));
+}
+
+TEST(Merge, CubeSidesNeverAllMerge) {
+  const TestSurface surface(shapes::Cube(6));
+  const ChartIds sides = surface.Paint([](const auto& p) { return test::CubeSide(p, {0.5, 0.5, 0.5}, 0.5); });
+  const int count = ChartCount(Merged(surface, sides, 1e-5));
+  EXPECT_GE(count, 2);  // straight creases merge, corners don't
+  EXPECT_LT(count, 6);
+}
+
+TEST(Merge, OctantsOfASphereDoNotMerge) {
+  const TestSurface surface(shapes::Sphere(12));
+  const ChartIds ids = Octants(surface);
+  EXPECT_EQ(ChartCount(Merged(surface, ids)), 8);
+}
+
+TEST(Merge, ThresholdZeroMergesNothing) {
+  const TestSurface surface(shapes::Grid(10, 10));
+  const ChartIds ids = surface.Paint([](const auto& p) { return p[0] < 0.5 ? 0 : 1; });
+  EXPECT_EQ(Merged(surface, ids, 0), ids);
+}
+
+TEST(Merge, LargestThresholdMergesEachComponentToOne) {
+  for (const SurfaceData& mesh : {shapes::Sphere(6), shapes::TwoComponents(4), shapes::BowTie(4)}) {
+    const TestSurface surface(mesh);
+    ChartIds components(surface->FaceCount(), 0);
+    SplitAndCompact(*surface, components);
+    ChartIds ids = Octants(surface);
+    SplitAndCompact(*surface, ids);
+    EXPECT_EQ(Merged(surface, ids, 4), components);
+  }
+}
+
+TEST(Merge, LargerThresholdsMergeMore) {
+  const TestSurface surface(shapes::Sphere(10));
+  int last = 8;
+  for (double threshold : {1e-3, 1e-2, 1e-1, 1.0}) {
+    const int count = ChartCount(Merged(surface, Octants(surface), threshold));
+    EXPECT_LE(count, last);
+    last = count;
+  }
+  EXPECT_EQ(last, 1);
+}
+
+TEST(Merge, ChartsOfDifferentComponentsNeverMerge) {
+  const TestSurface surface(shapes::BowTie(4));
+  ChartIds ids(surface->FaceCount(), 0);
+  SplitAndCompact(*surface, ids);
+  ASSERT_EQ(ChartCount(ids), 2) << "a shared vertex joins nothing";
+  EXPECT_EQ(Merged(surface, ids, 4), ids);
+}
+
+TEST(Merge, APartThatCurvesBothWaysStaysApart) {
+  // Three stripes: a plane in two halves, and a part that bends away in a curve of small radius, double
+  // curved.
+  SurfaceData mesh = shapes::Grid(30, 12);
+  for (auto& p : mesh.vertices)
+    if (p[0] > 2.0 / 3) {
+      const double t = 4 * (p[0] - 2.0 / 3);
+      p[2] = -0.4 * t * t * (1 + 3 * (p[1] - 0.5) * (p[1] - 0.5));
+    }
+  const TestSurface surface(mesh);
+  const ChartIds ids = surface.Paint([](const auto& p) {
+    return p[0] < 1.0 / 3 ? 0 : p[0] < 2.0 / 3 ? 1 : 2;
+  });
+  const ChartIds merged = Merged(surface, ids, 1e-6);
+  for (int f = 0; f < surface->FaceCount(); ++f) EXPECT_EQ(merged[f], ids[f] == 2 ? 1 : 0);
+}
+
+}  // namespace
+}  // namespace dcharts
