@@ -106,6 +106,7 @@ std::vector<Figure> Figures(const Report& report) {
   add("seam_length", report.seam_length);
   add("darts", report.darts);
   add("flipped_faces", report.flipped_faces);
+  add("degenerate_faces", report.degenerate_faces);
   add("overlapping_faces", report.overlapping_faces);
   add("packing_efficiency", report.packing_efficiency);
   add("seconds", report.seconds);

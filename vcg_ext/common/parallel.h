@@ -2,8 +2,11 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <exception>
 #include <functional>
+#include <mutex>
+#include <thread>
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -16,46 +19,44 @@ namespace dcharts {
 
 /// Calls work(k, poll) for k = 0..count-1, on several threads where OpenMP is there; each call must write
 /// only what is its own, so that the result doesn't depend on the number of threads. `poll` is for the work
-/// to call now and then: it asks the progress (on the calling thread) whether to go on. The first exception
-/// (by k) is rethrown when all have stopped.
+/// to call now and then: it asks the progress (on the calling thread) whether to go on. An exception stops
+/// all and is rethrown.
 template <class Work>
 void ParallelFor(int count, Progress& progress, const Work& work) {
   std::atomic<bool> stop{false};
-  std::atomic<int> done{0};
+  std::atomic<int> next{0}, done{0};
+  std::mutex mutex;
   std::exception_ptr failure;
-  int failed_at = count;
-#ifdef _OPENMP
-#pragma omp parallel for schedule(dynamic, 1)
-#endif
-  for (int k = 0; k < count; ++k) {
-    if (stop) continue;
-#ifdef _OPENMP
-    const bool asks = omp_get_thread_num() == 0;
-#else
-    const bool asks = true;
-#endif
+  const auto work_until_empty = [&](bool asks) {
     try {
       const std::function<void()> poll = [&] {
         if (stop) throw Cancelled();
-        if (asks) progress.Update(static_cast<double>(done) / count), progress.Poll();
+        if (!asks) return;
+        progress.Update(static_cast<double>(done) / count);
+        progress.Poll();
       };
-      poll();
-      work(k, poll);
-      ++done;
-    } catch (...) {
-#ifdef _OPENMP
-#pragma omp critical(dcharts_parallel_for)
-#endif
-      {
-        // A Cancelled that only follows another's stop comes later and doesn't count.
-        if (!failure || (!stop && k < failed_at)) {
-          failure = std::current_exception();
-          failed_at = k;
-        }
-        stop = true;
+      for (int k = next++; k < count && !stop; k = next++) {
+        poll();
+        work(k, poll);
+        ++done;
       }
+      // The calling thread alone may talk to the host: it stays awake for the others.
+      while (asks && done < count && !stop) {
+        poll();
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      }
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (!failure) failure = std::current_exception();
+      stop = true;
     }
-  }
+  };
+#ifdef _OPENMP
+#pragma omp parallel
+  work_until_empty(omp_get_thread_num() == 0);
+#else
+  work_until_empty(true);
+#endif
   if (failure) std::rethrow_exception(failure);
 }
 

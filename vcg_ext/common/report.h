@@ -20,6 +20,7 @@ struct Report {
   std::optional<double> seam_length;  ///< 3D, interior edges between charts and cuts, each once, / sqrt(area)
   std::optional<int> darts;
   std::optional<int> flipped_faces;
+  std::optional<int> degenerate_faces;  ///< with surface area, but (nearly) none in the texcoords
   std::optional<int> overlapping_faces;
   std::optional<double> packing_efficiency;  ///< UV area / area of the UVs' bounding square, 0..1
   std::optional<double> seconds;             ///< wall clock, whole filter

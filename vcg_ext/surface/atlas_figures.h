@@ -43,8 +43,13 @@ void MeasureAtlas(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, co
   for (int f = 0; f < face_count; ++f) chart_area[ids[f]] += signed_area(f);
 
   StretchFigures figures;
-  int flipped = 0;
-  double uv_area = 0;
+  double surface_area = 0, uv_area = 0;
+  for (int f = 0; f < face_count; ++f) {
+    surface_area += surface.Area(f);
+    uv_area += std::abs(signed_area(f));
+  }
+  constexpr double kDegenerate = 1e-8;  // of the UV area that a face's surface area should have
+  int flipped = 0, degenerate = 0;
   std::vector<GridTriangle> grid(face_count);
   const double cells = uv_side > 0 ? (1 << 28) / uv_side : 0;
   for (int f = 0; f < face_count; ++f) {
@@ -58,13 +63,18 @@ void MeasureAtlas(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, co
         grid[f][2 * i + d] = static_cast<std::int32_t>(std::lround((uv[f][2 * i + d] - uv_low[d]) * cells));
     }
     figures.Add(StretchOfTriangle(corners, flat), area_floor);
-    if (surface.Area(f) > area_floor && signed_area(f) * mirror < 0) ++flipped;
-    uv_area += std::abs(signed_area(f));
+    if (!(surface.Area(f) > area_floor)) continue;
+    if (std::abs(signed_area(f)) * surface_area <= kDegenerate * surface.Area(f) * uv_area)
+      ++degenerate;
+    else if (signed_area(f) * mirror < 0)
+      ++flipped;
   }
-  report.l2_stretch = figures.L2();
-  report.linf_stretch = figures.Linf();
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  report.l2_stretch = degenerate > 0 ? kInfinite : figures.L2();
+  report.linf_stretch = degenerate > 0 ? kInfinite : figures.Linf();
   report.l2_shear = figures.Shear();
   report.flipped_faces = flipped;
+  report.degenerate_faces = degenerate;
   report.packing_efficiency = uv_side > 0 ? uv_area / (uv_side * uv_side) : 0;
 
   std::vector<char> overlaps(face_count, 0);

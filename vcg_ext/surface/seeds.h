@@ -30,7 +30,7 @@ class Seeds {
     count = std::min(count, surface_.FaceCount());
     auto everywhere = [](int) { return true; };
     std::vector<GrowingChart> charts;
-    int next = Extremity();
+    int next = Extremity(everywhere);
     for (int i = 0; i < count; ++i) {
       if (i == 0)
         distance_.Run({next}, everywhere);
@@ -99,15 +99,18 @@ class Seeds {
   }
 
  private:
-  int Extremity() const {
+  // The face farthest from the centroid of the surface, among those for which `among(face)` holds; -1 when
+  // there is none.
+  template <class Among>
+  int Extremity(const Among& among) const {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     for (int f = 0; f < surface_.FaceCount(); ++f) centre += surface_.Area(f) * surface_.Centroid(f);
     centre /= surface_.TotalArea();
-    int best = 0;
+    int best = -1;
     double farthest = -1;
     for (int f = 0; f < surface_.FaceCount(); ++f) {
       const double d = (surface_.Centroid(f) - centre).squaredNorm();
-      if (surface_.Area(f) > 0 && d > farthest) {
+      if (surface_.Area(f) > 0 && d > farthest && among(f)) {
         farthest = d;
         best = f;
       }
@@ -115,7 +118,10 @@ class Seeds {
     return best;
   }
 
+  // From the seeds so far; in components without one, the extremity of them all.
   int Farthest() const {
+    const int unreached = Extremity([&](int f) { return distance_[f] == DualDistance<MeshType>::kFar; });
+    if (unreached >= 0) return unreached;
     int best = 0;
     double farthest = -1;
     for (int f = 0; f < surface_.FaceCount(); ++f)
