@@ -216,9 +216,7 @@ inline std::vector<std::pair<int, int>> AllOverlaps(const std::vector<GridUv>& t
   return pairs;
 }
 
-/// L2 and Linf stretch of Sander et al. 2001, from the edge vectors' Gram matrices: the singular values of
-/// the map are the square roots of the eigenvalues of inv(U) * M, M and U the Gram matrices in space and
-/// plane.
+/// L2 and Linf stretch of Sander et al. 2001, from the Jacobian in a frame of each triangle's own plane.
 struct Stretch {
   double l2 = 1, linf = 1;
 };
@@ -230,23 +228,25 @@ inline Stretch StretchOf(const SurfaceData& mesh, const std::vector<std::array<f
     if (!(area > area_floor)) continue;
     const Vec3& a = mesh.vertices[mesh.faces[f][0]];
     const Vec3 e = Minus(mesh.vertices[mesh.faces[f][1]], a), g = Minus(mesh.vertices[mesh.faces[f][2]], a);
+    // Corners in the plane: (0, 0), (length of e, 0), (x, height).
+    const double length = Norm(e), x = Dot(e, g) / length, height = 2 * area / length;
     const auto& t = uv[f];
     const double ux = double(t[2]) - t[0], uy = double(t[3]) - t[1], vx = double(t[4]) - t[0],
                  vy = double(t[5]) - t[1];
     const double det = ux * vy - uy * vx;
-    const double m11 = Dot(e, e), m12 = Dot(e, g), m22 = Dot(g, g);
-    const double u11 = ux * ux + uy * uy, u12 = ux * vx + uy * vy, u22 = vx * vx + vy * vy;
-    const double trace = (u22 * m11 - 2 * u12 * m12 + u11 * m22) / (det * det);
-    const double product = (m11 * m22 - m12 * m12) / (det * det);
+    // J maps (ux, uy) to (length, 0) and (vx, vy) to (x, height).
+    const double a11 = (length * vy - x * uy) / det, a12 = (x * ux - length * vx) / det,
+                 a21 = -height * uy / det, a22 = height * ux / det;
+    const double largest = (std::hypot(a11 + a22, a21 - a12) + std::hypot(a11 - a22, a12 + a21)) / 2;
     area3 += area;
     area2 += std::abs(det) / 2;
-    squares += area * trace / 2;
-    worst = std::max(worst, (trace + std::sqrt(std::max(0.0, trace * trace - 4 * product))) / 2);
+    squares += area * (a11 * a11 + a12 * a12 + a21 * a21 + a22 * a22) / 2;
+    worst = std::max(worst, largest);
   }
-  return {std::sqrt(squares / area3 * area2 / area3), std::sqrt(worst * area2 / area3)};
+  return {std::sqrt(squares / area3 * area2 / area3), worst * std::sqrt(area2 / area3)};
 }
 
-/// What CONTRACT promises of a finished atlas. Returns what is wrong, a line each; empty when all is well.
+/// What is promised of a finished atlas. Returns what is wrong, a line each; empty when all is well.
 inline std::string WrongInAtlas(const SurfaceData& mesh, const SurfaceChange& atlas, bool disks) {
   std::ostringstream wrong;
   const size_t face_count = mesh.faces.size();
@@ -311,6 +311,7 @@ inline std::string WrongInAtlas(const SurfaceData& mesh, const SurfaceChange& at
   if (!atlas.report.seam_length || std::abs(*atlas.report.seam_length - seams) > 1e-6 * (1 + seams))
     wrong << "seam_length is " << seams << ", reported " << atlas.report.seam_length.value_or(-1) << "\n";
   if (atlas.report.flipped_faces.value_or(-1) != 0) wrong << "report.flipped_faces is not 0\n";
+  if (atlas.report.degenerate_faces.value_or(-1) != 0) wrong << "report.degenerate_faces is not 0\n";
   if (atlas.report.overlapping_faces.value_or(-1) != 0) wrong << "report.overlapping_faces is not 0\n";
   if (atlas.report.unassigned_faces.value_or(-1) != 0) wrong << "report.unassigned_faces is not 0\n";
   return wrong.str();

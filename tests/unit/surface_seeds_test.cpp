@@ -65,6 +65,22 @@ TEST(Seeds, EveryComponentGetsOne) {
   EXPECT_NE(component[found[0]], component[found[1]]);
 }
 
+// An arbitrary face may make a chart wrap a limb.
+TEST(Seeds, EveryComponentStartsAtAnExtremity) {
+  const TestSurface surface(shapes::TwoComponents(3));
+  Seeds<SurfaceMesh> seeds(*surface);
+  const std::vector<int> found = SeedsOf(seeds.FarthestPoints(2));
+  ChartIds component(surface->FaceCount(), 0);
+  SplitAndCompact(*surface, component);
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (int f = 0; f < surface->FaceCount(); ++f) centre += surface->Area(f) * surface->Centroid(f);
+  for (int seed : found)
+    for (int f = 0; f < surface->FaceCount(); ++f)
+      if (component[f] == component[seed]) {
+        EXPECT_LE((surface->Centroid(f) - centre).norm(), (surface->Centroid(seed) - centre).norm() + 1e-9);
+      }
+}
+
 TEST(Seeds, NoneOnAFaceWithoutArea) {
   SurfaceData mesh = shapes::Grid(4, 4);
   const int v = static_cast<int>(mesh.vertices.size());
