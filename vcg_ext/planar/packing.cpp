@@ -85,28 +85,30 @@ class Board {
 
   /// Finds the place for `cells` with the smallest max(x + width, y + height), below `bound`; ties go to the
   /// lower place.
-  bool Find(const RowRuns& cells, int bound, int* best_x, int* best_y) const {
+  bool FindNearest(const RowRuns& cells, int bound, int* best_x, int* best_y) const {
     bool found = false;
-    const int height = cells.Height();
-    for (int y = 0; y + height < bound; ++y) {
-      int x = 0, row = 0, free_rows = 0;
-      while (free_rows < height && x + cells.width < bound) {
-        const int skip = Conflict(cells.rows[row], y + row, x);
-        if (skip > 0) {
-          x += skip;
-          free_rows = 0;
-          continue;  // with this row: the one that is in the way is likely to be so again
-        }
-        ++free_rows;
-        row = row + 1 < height ? row + 1 : 0;
-      }
-      if (free_rows < height || x + cells.width >= bound) continue;
+    int row = 0;
+    for (int y = 0; y + cells.Height() < bound; ++y) {
+      const int x = LeftmostFree(cells, y, bound - 1, &row);
+      if (x < 0) continue;
       found = true;
       *best_x = x;
       *best_y = y;
-      bound = std::max(x + cells.width, y + height);
+      bound = std::max(x + cells.width, y + cells.Height());
     }
     return found;
+  }
+
+  /// Finds the lowest place for `cells` in columns 0..width-1, with its top below `bound`; ties go to the
+  /// left.
+  bool FindLowest(const RowRuns& cells, int width, int bound, int* best_x, int* best_y) const {
+    int row = 0;
+    for (int y = 0; y + cells.Height() < bound; ++y) {
+      *best_x = LeftmostFree(cells, y, width, &row);
+      *best_y = y;
+      if (*best_x >= 0) return true;
+    }
+    return false;
   }
 
   void Take(const RowRuns& cells, int x, int y) {
@@ -121,6 +123,29 @@ class Board {
   }
 
  private:
+  // The smallest x, with x + cells.width <= width, at which `cells` fit with their foot at y; -1 when there
+  // is none. Rows are visited in strides (neighbours tend to agree), beginning with the one that was in the
+  // way last.
+  int LeftmostFree(const RowRuns& cells, int y, int width, int* row) const {
+    const int height = cells.Height();
+    int stride = std::max(1, static_cast<int>(0.382 * height));
+    while (std::gcd(stride, height) != 1) ++stride;
+    int x = 0;
+    for (int free_rows = 0; free_rows < height;) {
+      if (x + cells.width > width) return -1;
+      const int skip = Conflict(cells.rows[*row], y + *row, x);
+      x += skip;
+      if (skip > 0) {
+        free_rows = 0;
+        continue;
+      }
+      ++free_rows;
+      *row += stride;
+      if (*row >= height) *row -= height;
+    }
+    return x;
+  }
+
   // How far to move right until the row's first run in conflict is free of it; 0 when none is.
   int Conflict(const std::vector<Run>& runs, int y, int x) const {
     const std::int16_t* taken = taken_before_.data() + static_cast<size_t>(y) * side_;
@@ -133,6 +158,13 @@ class Board {
 
   int side_;
   std::vector<std::int16_t> taken_before_;
+};
+
+/// One way to place the charts, one after the other.
+struct PackPlan {
+  std::vector<int> order;
+  int width = 0;    ///< of a strip that is filled from below; 0: the square grows from its corner
+  double lean = 1;  ///< in a strip: 1 keeps tops low, 0 keeps feet low
 };
 
 class Packer {
@@ -187,33 +219,43 @@ class Packer {
 
   /// Places all charts. Returns the side of the square they take, in cells; 0 when it would be `bound` or
   /// more. Placements are in cells.
-  int Try(const std::vector<int>& order, int bound, std::vector<Placement>* placements) const {
+  int Try(const PackPlan& plan, int bound, std::vector<Placement>* placements) const {
     if (poll_) poll_();
     Board board(bound);
     placements->assign(outlines_.size(), {});
-    int side = 0;
-    for (int k : order) {
-      // Inside the square that is taken anyway, the place nearest to its corner; else where the square grows
-      // least.
-      int best_x = -1, best_y = 0, best_end = bound;
+    int side = plan.width;
+    if (side >= bound) return 0;
+    for (int k : plan.order) {
+      int best_x = -1, best_y = 0;
       double best_score = std::numeric_limits<double>::infinity();
       const Turn* best_turn = nullptr;
       for (const Turn& turn : turns_[k]) {
         int x = 0, y = 0;
-        if (!board.Find(turn.cells, std::min(bound, std::max(best_end, side) + 1), &x, &y)) continue;
-        const int end = std::max(x + turn.cells.width, y + turn.cells.Height());
-        const double score =
-            std::max(end, side) + 1e-3 * (x + y + 0.5 * turn.cells.width + 0.5 * turn.cells.Height());
+        double score = 0;
+        if (plan.width > 0) {
+          // In a strip: as low as possible, counted at a height between the chart's foot and its top.
+          const double highest =
+              best_score - plan.lean * turn.cells.Height();  // a foot up there would not be better
+          const int below = std::min<double>(bound, std::ceil(highest) + turn.cells.Height());
+          if (turn.cells.width > plan.width || !board.FindLowest(turn.cells, plan.width, below, &x, &y))
+            continue;
+          score = y + plan.lean * turn.cells.Height() + 1e-3 * x;
+        } else {
+          // Inside the square that is taken anyway, the place nearest to its corner; else where the square
+          // grows least.
+          if (!board.FindNearest(turn.cells, std::min<double>(bound, best_score + 1), &x, &y)) continue;
+          const int end = std::max(x + turn.cells.width, y + turn.cells.Height());
+          score = std::max(end, side) + 1e-3 * (x + y + 0.5 * turn.cells.width + 0.5 * turn.cells.Height());
+        }
         if (score >= best_score) continue;
         best_score = score;
         best_x = x;
         best_y = y;
-        best_end = end;
         best_turn = &turn;
       }
       if (!best_turn) return 0;
       board.Take(best_turn->cells, best_x, best_y);
-      side = std::max(side, best_end);
+      side = std::max({side, best_x + best_turn->cells.width, best_y + best_turn->cells.Height()});
       (*placements)[k].angle = best_turn->angle;
       (*placements)[k].offset =
           Eigen::Vector2d(best_x + margin_, best_y + margin_) - scale_ * best_turn->corner.transpose();
@@ -251,10 +293,14 @@ Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
   double scale = cells / std::max(std::sqrt(packer.TotalArea() / kLikelyUse), packer.LongestSide() * 1.02);
 
   // Large charts first is a good rule, not a law: with few charts, a search goes on from the best of these
-  // orders.
-  std::vector<std::vector<int>> orders{packer.OrderBy(0.5)};
-  if (count <= 300) orders.insert(orders.end(), {packer.OrderBy(1), packer.OrderBy(0)});
-  int search_steps = count > 1 ? std::clamp(600 / count, 0, 40) : 0;
+  // plans.
+  std::vector<PackPlan> plans;
+  for (double share : count <= 300 ? std::vector<double>{0.5, 1, 0} : std::vector<double>{0.5}) {
+    plans.push_back({packer.OrderBy(share), 0, 1});
+    plans.push_back({packer.OrderBy(share), cells, 1});
+    plans.push_back({packer.OrderBy(share), cells, 0.5});
+  }
+  int search_steps = count > 1 ? std::clamp(2500 / count, 0, 120) : 0;
 
   // What a texel is in cells is known only when all are placed: the margin is for a guessed side, which must
   // prove large enough.
@@ -266,24 +312,36 @@ Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
     constexpr double kHair = 0.05;  // texels more than the padding, so that rounding doesn't eat into it
     packer.Rasterize(scale, (padding + kHair) / 2 * guess / options.texture_size);
     int side = 0;
-    std::vector<int> best_order;
+    PackPlan best;
     std::vector<Placement> placements;
-    auto try_order = [&](const std::vector<int>& order) {
-      const int found = packer.Try(order, side > 0 ? side : 2 * cells, &placements);
+    auto try_plan = [&](const PackPlan& plan) {
+      const int found = packer.Try(plan, side > 0 ? side : 2 * cells, &placements);
       if (found == 0) return;
       side = found;
-      best_order = order;
+      best = plan;
       packing.placements = placements;
     };
-    for (const auto& order : orders) try_order(order);
+    for (const PackPlan& plan : plans) try_plan(plan);
     std::minstd_rand random;  // seeded alike for every run
     for (int step = 0; step < search_steps && side > 0; ++step) {
-      std::vector<int> order = best_order;
-      const auto from = random() % order.size(), to = random() % order.size();
-      const int chart = order[from];
-      order.erase(order.begin() + static_cast<std::ptrdiff_t>(from));
-      order.insert(order.begin() + static_cast<std::ptrdiff_t>(to), chart);
-      try_order(order);
+      PackPlan plan = best;
+      const auto from = random() % plan.order.size(), to = random() % plan.order.size();
+      const int chart = plan.order[from];
+      plan.order.erase(plan.order.begin() + static_cast<std::ptrdiff_t>(from));
+      plan.order.insert(plan.order.begin() + static_cast<std::ptrdiff_t>(to), chart);
+      constexpr double kLeans[] = {0.25, 0.5, 0.75, 1};
+      switch (random() % 4) {
+        case 0:
+          plan.width = 0;
+          break;
+        case 1:
+          plan.width = side - 1 - static_cast<int>(random() % static_cast<unsigned>(1 + side / 12));
+          plan.lean = kLeans[random() % 4];
+          break;
+        default:
+          if (plan.width >= side) plan.width = side - 1;
+      }
+      try_plan(plan);
     }
     if (side > 0 && side <= guess) {
       packing.scale = scale / side;
@@ -293,7 +351,8 @@ Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
     }
     if (side > 0) {
       guess = side + 1;
-      orders.assign(1, best_order);
+      plans.assign(1, best);
+      if (plans[0].width > 0) plans.push_back({best.order, side - 1, best.lean});
       search_steps /= 2;
     } else {  // far too many charts for these cells: smaller ones, then less padding
       scale *= 0.8;

@@ -128,7 +128,7 @@ class Straightener {
   // deeper than a fraction of the smaller chart, so that none is swallowed.
   void MarkFuzzyArea(const Segment& s, const ChartIds& ids) {
     constexpr double kDepth = 0.25;
-    const double depth = kDepth * std::sqrt(std::min(chart_area_[s.left], chart_area_[s.right]));
+    depth_ = kDepth * std::sqrt(std::min(chart_area_[s.left], chart_area_[s.right]));
     auto of_pair = [&](int f) { return ids[f] == s.left || ids[f] == s.right; };
     std::vector<int> sources;
     for (int h : s.edges)
@@ -141,7 +141,7 @@ class Straightener {
           return of_pair(f) && FittingError(proxy_[s.left], surface_.Normal(f)) < params_.max_fitting_error &&
                  FittingError(proxy_[s.right], surface_.Normal(f)) < params_.max_fitting_error;
         },
-        depth);
+        depth_);
     ++stamp_;
     for (int f : distance_.Reached()) fuzzy_[f] = stamp_;
   }
@@ -234,7 +234,7 @@ class Straightener {
         const int g = surface_.Neighbour(h);
         if (g < 0) continue;
         if (Fuzzy(g)) {
-          if (g > f) edges.push_back({n, node_[g], surface_.Length(h)});
+          if (g > f) edges.push_back({n, node_[g], surface_.Length(h) * Remoteness(f, g)});
         } else {
           at_rim = true;  // of the fuzzy area, or of the pair of charts: this face keeps its chart
         }
@@ -254,6 +254,10 @@ class Straightener {
     }
     return true;
   }
+
+  // A loop gets shorter merely by shrinking; edges far from the old one cost more, so that it straightens but
+  // stays.
+  double Remoteness(int f, int g) const { return 1 + 0.5 * (distance_[f] + distance_[g]) / depth_; }
 
   double BoundaryAround(const std::vector<int>& a, const std::vector<int>& b, const ChartIds& ids) {
     double length = 0;
@@ -340,6 +344,7 @@ class Straightener {
   DualDistance<MeshType> distance_;
   std::vector<std::vector<int>> chart_faces_;  // may hold faces that have left the chart
   std::vector<ConeProxy> proxy_;
+  double depth_ = 0;  // of the present fuzzy area
   std::vector<double> chart_area_;
   std::vector<int> boundary_degree_;
   std::vector<int> fuzzy_, side_, on_path_;  // valid where they hold the current stamp
