@@ -78,7 +78,8 @@ std::vector<ParamSpec> MakeParams() {
       // --- merging
       {"merge_threshold", "Merge threshold (eta)",
        "Two neighbouring charts are joined when the region along their border fits a cylinder with a mean "
-       "fitting error below this, without unit. Larger values give fewer charts with more stretch; 0.00001 keeps "
+       "fitting error below this, without unit. Larger values give fewer charts with more stretch; 0.00001 "
+       "keeps "
        "mechanical parts "
        "strictly developable; 0 joins none.",
        &Params::merge_threshold, 0, 4},
@@ -267,14 +268,7 @@ std::string TooltipText(const ParamSpec& spec) {
 }
 
 std::string HelpText(const FilterSpec& spec) {
-  std::string text = spec.summary;
-  if (!spec.params.empty()) {
-    text += "<br><ul>";
-    for (const ParamSpec* param : spec.params)
-      text += std::string("<li><b>") + param->name + "</b>: " + TooltipText(*param) + "</li>";
-    text += "</ul>";
-  }
-  return text + kPaper + " (" + spec.reference + ").";
+  return std::string(spec.summary) + kPaper + " (" + spec.reference + ").";
 }
 
 std::string NumberText(double value) {

@@ -73,7 +73,9 @@ std::string RangeText(const ParamSpec& spec);
 /// The tooltip with range and default.
 std::string TooltipText(const ParamSpec& spec);
 
-/// The whole help of a filter in HTML: what it does, each parameter, the paper.
+/// The help of a filter in HTML: what it does, and the paper. Hosts put it on top of the filter's dialog, so
+/// it is short: with the parameters in it, which have their tooltips, the Apply button would be below the
+/// screen.
 std::string HelpText(const FilterSpec& spec);
 
 /// A number as a person writes it, in the C locale: "0.2", "1024".

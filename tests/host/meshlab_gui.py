@@ -60,6 +60,8 @@ class MeshlabGui:
         """Applies a filter with its default parameters, waits until MeshLab says it is done, and takes the filter's
         dialog off the screen."""
         window = self.open_filter(name)
+        height = int(re.search(r'Geometry: \d+x(\d+)', self.session.xdotool('getwindowgeometry', window)).group(1))
+        assert height <= 1050, f'the dialog of {name} is {height} pixels high: Apply is below a screen of 1080'
         self.session.xdotool('windowactivate', '--sync', window)
         time.sleep(0.3)
         self.session.keys('space')
