@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The flattening alone, for measuring.
+//   flatten_tool charts MESH OUT CHART_COUNT   segments and cuts the one mesh in MESH and writes its charts
+//   flatten_tool flatten CHARTS OUT            flattens every chart; OUT holds for each: int32 ok, int32 number of
+//                                              vertices, double cpu seconds, 2 doubles per vertex
+// Files of charts are those of chart_file.h.
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <exception>
+
+#include "chart_file.h"
+#include "dcharts.h"
+#include "planar/flatten.h"
+#include "surface/chart_patch.h"
+#include "surface/workspace.h"
+
+namespace {
+
+using dcharts::ChartMesh;
+using dcharts::SurfaceChange;
+using dcharts::SurfaceData;
+
+SurfaceData SurfaceOf(const ChartMesh& mesh) {
+  SurfaceData data;
+  for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v) {
+    data.vertices.push_back({mesh.positions(v, 0), mesh.positions(v, 1), mesh.positions(v, 2)});
+  }
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    data.faces.push_back({mesh.triangles(t, 0), mesh.triangles(t, 1), mesh.triangles(t, 2)});
+  }
+  return data;
+}
+
+void WriteCharts(const std::string& in, const std::string& out, int chart_count) {
+  SurfaceData data = SurfaceOf(dcharts::bench::ReadCharts(in).at(0));
+  dcharts::Params params;
+  params.chart_count = chart_count;
+  dcharts::Progress progress;
+  for (const auto stage :
+       {dcharts::Segment, dcharts::Fill, dcharts::Straighten, dcharts::Merge, dcharts::Cut}) {
+    const SurfaceChange change = stage(data, params, progress);
+    data.face_quality.assign(change.chart_ids.begin(), change.chart_ids.end());
+    data.seams = change.seams;
+  }
+  const dcharts::Workspace work(data);
+  dcharts::ChartIds ids = work.ReadCharts();
+  dcharts::SeamMask seams;
+  if (!work.ReadSeams(ids, seams)) throw std::runtime_error("The seams don't fit the charts.");
+  const dcharts::CutVertices cut = dcharts::OpenAtSeams(work.Surface(), seams);
+  dcharts::PatchExtractor<dcharts::SurfaceMesh> extractor(work.Surface(), cut, seams);
+  std::ofstream file(out, std::ios::binary);
+  const auto charts = dcharts::FacesOfCharts(ids);
+  for (const auto& faces : charts) dcharts::bench::WriteChart(file, extractor.Extract(faces).mesh);
+  std::printf("%zu charts\n", charts.size());
+}
+
+void FlattenCharts(const std::string& in, const std::string& out) {
+  std::ofstream file(out, std::ios::binary);
+  double total = 0;
+  for (const ChartMesh& chart : dcharts::bench::ReadCharts(in)) {
+    const std::clock_t start = std::clock();
+    dcharts::Flattening flat = dcharts::Flatten(chart);
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    if (!flat.ok) flat.uv = dcharts::Points2::Zero(chart.positions.rows(), 2);
+    const std::int32_t head[2] = {flat.ok, static_cast<std::int32_t>(flat.uv.rows())};
+    dcharts::bench::WriteValues(file, head, 2);
+    dcharts::bench::WriteValues(file, &seconds, 1);
+    dcharts::bench::WriteValues(file, flat.uv.data(), flat.uv.size());
+    std::printf("%7ld faces  L2 %.5f  Linf %.4f  %.4f s  %s\n", static_cast<long>(chart.triangles.rows()),
+                flat.l2_stretch, flat.linf_stretch, seconds, flat.why.c_str());
+    total += seconds;
+  }
+  std::printf("total %.3f s\n", total);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const std::vector<std::string> words(arguments + 1, arguments + count);
+  try {
+    if (words.size() == 4 && words[0] == "charts") {
+      WriteCharts(words[1], words[2], std::atoi(words[3].c_str()));
+    } else if (words.size() == 3 && words[0] == "flatten") {
+      FlattenCharts(words[1], words[2]);
+    } else {
+      std::fputs("usage: flatten_tool charts MESH OUT CHART_COUNT | flatten CHARTS OUT\n", stderr);
+      return 2;
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
