@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <random>
 #include <utility>
@@ -81,7 +82,8 @@ double EnclosedArea(const Points2& outline) {
 /// tested at once.
 class Board {
  public:
-  explicit Board(int side) : side_(side), taken_before_(static_cast<size_t>(side) * side, -1) {}
+  explicit Board(int side)
+      : side_(side), taken_before_(static_cast<size_t>(side) * side, -1), gap_(side, side) {}
 
   /// Finds the place for `cells` with the smallest max(x + width, y + height), below `bound`; ties go to the
   /// lower place.
@@ -89,6 +91,7 @@ class Board {
     bool found = false;
     int row = 0;
     for (int y = 0; y + cells.Height() < bound; ++y) {
+      if (gap_[y + cells.widest_row] < cells.longest_run) continue;
       const int x = LeftmostFree(cells, y, bound - 1, &row);
       if (x < 0) continue;
       found = true;
@@ -101,9 +104,10 @@ class Board {
 
   /// Finds the lowest place for `cells` in columns 0..width-1, with its top below `bound`; ties go to the
   /// left.
-  bool FindLowest(const RowRuns& cells, int width, int bound, int* best_x, int* best_y) const {
+  bool FindLowest(const RowRuns& cells, int width, int lowest, int bound, int* best_x, int* best_y) const {
     int row = 0;
-    for (int y = 0; y + cells.Height() < bound; ++y) {
+    for (int y = lowest; y + cells.Height() < bound; ++y) {
+      if (gap_[y + cells.widest_row] < cells.longest_run) continue;
       *best_x = LeftmostFree(cells, y, width, &row);
       *best_y = y;
       if (*best_x >= 0) return true;
@@ -113,12 +117,18 @@ class Board {
 
   void Take(const RowRuns& cells, int x, int y) {
     for (int row = 0; row < cells.Height(); ++row) {
-      std::int16_t* taken = taken_before_.data() + static_cast<size_t>(y + row) * side_;
+      std::int16_t* taken = Row(y + row);
       for (const Run& run : cells.rows[row]) {
-        for (int c = x + run.first; c <= x + run.last; ++c) taken[c] = static_cast<std::int16_t>(c);
-        for (int c = x + run.last + 1; c < side_ && taken[c] < x + run.last; ++c)
-          taken[c] = static_cast<std::int16_t>(x + run.last);
+        const auto last = static_cast<std::int16_t>(x + run.last);
+        for (int c = x + run.first; c <= last; ++c) taken[c] = static_cast<std::int16_t>(c);
+        for (int c = last + 1; c < side_ && taken[c] < last; ++c) taken[c] = last;
       }
+      int gap = 0;
+      for (int c = side_ - 1; c >= 0; c = taken[c] - (taken[c] == c)) {
+        gap = std::max(gap, c - taken[c]);
+        if (taken[c] < 0) break;
+      }
+      gap_[y + row] = gap;
     }
   }
 
@@ -148,7 +158,7 @@ class Board {
 
   // How far to move right until the row's first run in conflict is free of it; 0 when none is.
   int Conflict(const std::vector<Run>& runs, int y, int x) const {
-    const std::int16_t* taken = taken_before_.data() + static_cast<size_t>(y) * side_;
+    const std::int16_t* taken = Row(y);
     for (const Run& run : runs) {
       const int before = taken[x + run.last];
       if (before >= x + run.first) return before - (x + run.first) + 1;
@@ -156,8 +166,13 @@ class Board {
     return 0;
   }
 
+  const std::int16_t* Row(int y) const { return taken_before_.data() + static_cast<size_t>(y) * side_; }
+  std::int16_t* Row(int y) { return taken_before_.data() + static_cast<size_t>(y) * side_; }
+
   int side_;
   std::vector<std::int16_t> taken_before_;
+  std::vector<int>
+      gap_;  // per row the longest stretch of free cells: rows that are full are passed over at once
 };
 
 /// One way to place the charts, one after the other.
@@ -171,7 +186,11 @@ class Packer {
  public:
   Packer(const std::vector<Points2>& outlines, bool rotate, const std::function<void()>& poll)
       : outlines_(outlines), poll_(poll) {
-    const int turns = !rotate ? 1 : outlines.size() <= 200 ? 16 : outlines.size() <= 5000 ? 8 : 4;
+    const int turns = !rotate                    ? 1
+                      : outlines.size() <= 200   ? 16
+                      : outlines.size() <= 1000  ? 8
+                      : outlines.size() <= 10000 ? 4
+                                                 : 1;
     for (const Points2& outline : outlines) {
       std::vector<Turn> angles;
       const double upright = rotate ? UprightAngle(outline) : 0;
@@ -225,6 +244,10 @@ class Packer {
     placements->assign(outlines_.size(), {});
     int side = plan.width;
     if (side >= bound) return 0;
+    // The board only fills up: where a chart found no place, the next one of about its size need not look
+    // again. With few charts it looks all the same.
+    const bool many = outlines_.size() > 200;
+    std::map<std::pair<int, int>, int> lowest_place;
     for (int k : plan.order) {
       int best_x = -1, best_y = 0;
       double best_score = std::numeric_limits<double>::infinity();
@@ -237,8 +260,11 @@ class Packer {
           const double highest =
               best_score - plan.lean * turn.cells.Height();  // a foot up there would not be better
           const int below = std::min<double>(bound, std::ceil(highest) + turn.cells.Height());
-          if (turn.cells.width > plan.width || !board.FindLowest(turn.cells, plan.width, below, &x, &y))
+          int& lowest = lowest_place[SizeClass(turn.cells)];
+          if (turn.cells.width > plan.width ||
+              !board.FindLowest(turn.cells, plan.width, lowest, below, &x, &y))
             continue;
+          if (many) lowest = y;
           score = y + plan.lean * turn.cells.Height() + 1e-3 * x;
         } else {
           // Inside the square that is taken anyway, the place nearest to its corner; else where the square
@@ -264,6 +290,12 @@ class Packer {
   }
 
  private:
+  static std::pair<int, int> SizeClass(const RowRuns& cells) {
+    constexpr double kStep = 0.15;
+    return {static_cast<int>(std::log(cells.longest_run) / kStep),
+            static_cast<int>(std::log(cells.Height()) / kStep)};
+  }
+
   struct Turn {
     double angle = 0;
     Points2 outline;  // turned, with its box's lower left corner at the origin
@@ -296,9 +328,9 @@ Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
   // plans.
   std::vector<PackPlan> plans;
   for (double share : count <= 300 ? std::vector<double>{0.5, 1, 0} : std::vector<double>{0.5}) {
-    plans.push_back({packer.OrderBy(share), 0, 1});
+    if (count <= 1000) plans.push_back({packer.OrderBy(share), 0, 1});
     plans.push_back({packer.OrderBy(share), cells, 1});
-    plans.push_back({packer.OrderBy(share), cells, 0.5});
+    if (count <= 1000) plans.push_back({packer.OrderBy(share), cells, 0.5});
   }
   int search_steps = count > 1 ? std::clamp(2500 / count, 0, 120) : 0;
 

@@ -51,6 +51,11 @@ RowRuns CoveredCells(const Points2& outline, double margin) {
       else
         runs.push_back({first, last});
     }
+    for (const Run& run : cells.rows[row])
+      if (run.last - run.first + 1 > cells.longest_run) {
+        cells.longest_run = run.last - run.first + 1;
+        cells.widest_row = row;
+      }
   }
   return cells;
 }

@@ -16,6 +16,8 @@ struct Run {
 struct RowRuns {
   int width = 0;  ///< cells; columns 0..width-1
   std::vector<std::vector<Run>> rows;
+  int widest_row = 0;   ///< the row with the longest run...
+  int longest_run = 0;  ///< ...and its cells
   int Height() const { return static_cast<int>(rows.size()); }
 };
 
