@@ -43,7 +43,7 @@ void ParallelFor(int count, Progress& progress, const Work& work) {
       // The calling thread alone may talk to the host: it stays awake for the others.
       while (asks && done < count && !stop) {
         poll();
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
       }
     } catch (...) {
       const std::lock_guard<std::mutex> lock(mutex);

@@ -320,7 +320,11 @@ Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
   Packer packer(outlines, options.rotate, poll);
   const int count = static_cast<int>(outlines.size());
   // Cells along the square: fine ones fit charts closely, but cost time; many charts need many.
-  const int cells = count <= 100 ? 512 : count <= 5000 ? 1024 : 2048;
+  // Finer than texels gains nothing.
+  const int cells = std::min(count <= 100    ? 512
+                             : count <= 5000 ? 1024
+                                             : 2048,
+                             std::max(64, options.texture_size));
   constexpr double kLikelyUse = 0.6;  // of the square
   double scale = cells / std::max(std::sqrt(packer.TotalArea() / kLikelyUse), packer.LongestSide() * 1.02);
 
@@ -337,6 +341,8 @@ Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
   // What a texel is in cells is known only when all are placed: the margin is for a guessed side, which must
   // prove large enough.
   double padding = options.padding, guess = cells;
+  constexpr double kMostPadding = 0.5;  // of the texture
+  while (count * padding * padding > kMostPadding * options.texture_size * options.texture_size) padding /= 2;
   for (int attempt = 0;; ++attempt) {
     if (attempt == 60)
       throw Error(
@@ -356,6 +362,8 @@ Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
     for (const PackPlan& plan : plans) try_plan(plan);
     std::minstd_rand random;  // seeded alike for every run
     for (int step = 0; step < search_steps && side > 0; ++step) {
+      constexpr double kTight = 0.85;  // of the square: hardly to be bettered
+      if (packer.TotalArea() * scale * scale > kTight * side * side) break;
       PackPlan plan = best;
       const auto from = random() % plan.order.size(), to = random() % plan.order.size();
       const int chart = plan.order[from];
@@ -382,7 +390,8 @@ Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
       return packing;
     }
     if (side > 0) {
-      guess = side + 1;
+      guess = 1.01 * side + 1;
+      search_steps /= 4;
       plans.assign(1, best);
       if (plans[0].width > 0) plans.push_back({best.order, side - 1, best.lean});
       search_steps /= 2;

@@ -71,6 +71,7 @@ class Parameterizer {
     bool flat = false;
     std::vector<std::pair<int, int>> overlaps;
     std::string why;
+    double l2_stretch = 1;
   };
 
   bool AllDisks(const ChartIds& ids, const SeamMask& seams) const {
@@ -91,7 +92,7 @@ class Parameterizer {
       std::vector<Piece> pieces;
       for (const auto& faces : FacesOfCharts(ids))
         if (state_[faces.front()] != State::kDone)
-          pieces.push_back({extractor.Extract(faces), {}, false, {}, {}});
+          pieces.push_back({extractor.Extract(faces), {}, false, {}, {}, 1});
       if (pieces.empty()) return;
 
       std::vector<int> order(pieces.size());  // the largest first, for even threads
@@ -115,16 +116,21 @@ class Parameterizer {
       piece.flat = true;
     } else {
       if (all_disks_ && LoopsOf(piece.patch).size() > 1) return;  // a part of a disk must become a disk again
-      const Flattening flat = Flatten(piece.patch.mesh, {}, poll);
-      piece.flat = flat.ok;
-      piece.why = flat.why;
-      piece.uv = flat.uv;
-      if (flat.ok)
-        OpenSlits(piece.patch, SurfaceVertices(piece.patch), kSlitGap * std::sqrt(piece.patch.Area()),
-                  piece.uv);
+      LayFlat(piece, poll);
     }
     if (piece.flat)
       piece.overlaps = OverlappingPairs(OnGrid(piece.uv, piece.patch.mesh.triangles), kMostOverlaps);
+  }
+
+  void LayFlat(Piece& piece, const std::function<void()>& poll) const {
+    Flattening flat = Flatten(piece.patch.mesh, {}, poll);
+    piece.flat = flat.ok;
+    piece.why = std::move(flat.why);
+    piece.uv = std::move(flat.uv);
+    piece.l2_stretch = flat.l2_stretch;
+    if (piece.flat)
+      OpenSlits(piece.patch, SurfaceVertices(piece.patch), kSlitGap * std::sqrt(piece.patch.Area()),
+                piece.uv);
   }
 
   std::vector<int> SurfaceVertices(const ChartPatch& patch) const {
@@ -170,6 +176,9 @@ class Parameterizer {
       MarkCutOff(patch, ids);
       return;
     }
+    if (!piece.why.empty())
+      progress_.Log("A chart of " + std::to_string(patch.faces.size()) +
+                    " faces is cut or split: " + piece.why);
     if (state_[patch.faces.front()] != State::kToBisect && LoopsOf(patch).size() > 1) {
       ChartCutter<MeshType>(surface_, params_, progress_).Mark(patch, CutsThatJoinLoops(patch, true), seams);
       return;
@@ -260,13 +269,12 @@ class Parameterizer {
       }
     }
     const CutVertices cut = OpenAtSeams(surface_, joined);
-    Piece piece{PatchExtractor<MeshType>(surface_, cut, joined).Extract(faces), {}, false, {}, {}};
+    Piece piece{PatchExtractor<MeshType>(surface_, cut, joined).Extract(faces), {}, false, {}, {}, 1};
     const size_t loops = LoopsOf(piece.patch).size();
     if (loops == 0 || !CutsThatOpenHandles(piece.patch).empty() || (all_disks_ && loops > 1)) return false;
-    const Flattening flat = Flatten(piece.patch.mesh, {}, [&] { progress_.Poll(); });
+    LayFlat(piece, [&] { progress_.Poll(); });
     constexpr double kWorthIt = 1.02;
-    if (!flat.ok || flat.l2_stretch > kWorthIt) return false;
-    piece.uv = flat.uv;
+    if (!piece.flat || piece.l2_stretch > kWorthIt) return false;
     if (!OverlappingPairs(OnGrid(piece.uv, piece.patch.mesh.triangles), 1).empty()) return false;
     Store(piece);
     seams = std::move(joined);
