@@ -209,13 +209,13 @@ def run_tool(tool, *words):
     return subprocess.run([tool, *map(str, words)], check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
-def flatten(tool, folder, charts):
+def flatten(tool, folder, charts, method="flatten"):
     source, out = folder / "in.charts", folder / "out.uv"
     with open(source, "wb") as joined:
         for vertices, faces in charts:
             write_mesh(folder / "one", vertices, faces)
             joined.write((folder / "one").read_bytes())
-    run_tool(tool, "flatten", source, out)
+    run_tool(tool, method, source, out)
     return read_flat(out)
 
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The flattening alone, for measuring.
 //   flatten_tool charts MESH OUT CHART_COUNT   segments and cuts the one mesh in MESH and writes its charts
-//   flatten_tool flatten CHARTS OUT            flattens every chart; OUT holds for each: int32 ok, int32 number of
+//   flatten_tool flatten CHARTS OUT            flattens every chart; OUT holds for each: int32 ok, int32
+//   number of
 //                                              vertices, double cpu seconds, 2 doubles per vertex
+//   flatten_tool conformal CHARTS OUT          the same, conformally
 // Files of charts are those of chart_file.h.
 #include <cstdio>
 #include <cstdlib>
@@ -55,20 +57,22 @@ void WriteCharts(const std::string& in, const std::string& out, int chart_count)
   std::printf("%zu charts\n", charts.size());
 }
 
-void FlattenCharts(const std::string& in, const std::string& out) {
+void FlattenCharts(const std::string& in, const std::string& out, dcharts::FlattenMethod method) {
+  dcharts::FlattenOptions options;
+  options.method = method;
   std::ofstream file(out, std::ios::binary);
   double total = 0;
   for (const ChartMesh& chart : dcharts::bench::ReadCharts(in)) {
     const std::clock_t start = std::clock();
-    dcharts::Flattening flat = dcharts::Flatten(chart);
+    dcharts::Flattening flat = dcharts::Flatten(chart, options);
     const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     if (!flat.ok) flat.uv = dcharts::Points2::Zero(chart.positions.rows(), 2);
     const std::int32_t head[2] = {flat.ok, static_cast<std::int32_t>(flat.uv.rows())};
     dcharts::bench::WriteValues(file, head, 2);
     dcharts::bench::WriteValues(file, &seconds, 1);
     dcharts::bench::WriteValues(file, flat.uv.data(), flat.uv.size());
-    std::printf("%7ld faces  L2 %.5f  Linf %.4f  %.4f s  %s\n", static_cast<long>(chart.triangles.rows()),
-                flat.l2_stretch, flat.linf_stretch, seconds, flat.why.c_str());
+    std::printf("%7ld faces  L2 %.5f  Linf %.4f  %.4f s  %s%s\n", static_cast<long>(chart.triangles.rows()),
+                flat.l2_stretch, flat.linf_stretch, seconds, flat.why.c_str(), flat.note.c_str());
     total += seconds;
   }
   std::printf("total %.3f s\n", total);
@@ -82,9 +86,13 @@ int main(int count, char** arguments) {
     if (words.size() == 4 && words[0] == "charts") {
       WriteCharts(words[1], words[2], std::atoi(words[3].c_str()));
     } else if (words.size() == 3 && words[0] == "flatten") {
-      FlattenCharts(words[1], words[2]);
+      FlattenCharts(words[1], words[2], dcharts::FlattenMethod::kStretchMinimizing);
+    } else if (words.size() == 3 && words[0] == "conformal") {
+      FlattenCharts(words[1], words[2], dcharts::FlattenMethod::kConformal);
     } else {
-      std::fputs("usage: flatten_tool charts MESH OUT CHART_COUNT | flatten CHARTS OUT\n", stderr);
+      std::fputs(
+          "usage: flatten_tool charts MESH OUT CHART_COUNT | flatten CHARTS OUT | conformal CHARTS OUT\n",
+          stderr);
       return 2;
     }
   } catch (const std::exception& error) {

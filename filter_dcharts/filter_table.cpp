@@ -106,6 +106,19 @@ std::vector<ParamSpec> MakeParams() {
        "layer.",
        &Params::seam_layer},
       // --- flattening and packing
+      {"method",
+       "Flattening",
+       "How charts are laid flat. Stretch-minimizing keeps lengths as far as possible, so that every part "
+       "gets "
+       "its share of the texture. Conformal (ABF++) keeps angles as far as possible, so that patterns are "
+       "not "
+       "sheared, but where a chart is curved parts get more of the texture than others; a chart that has no "
+       "conformal map without folds is flattened with least stretch, and the log says so.",
+       &Params::method,
+       0,
+       1,
+       false,
+       {"Stretch-minimizing", "Conformal (ABF++)"}},
       {"texture_size", "Texture size (texels)",
        "Side of the square texture for which charts are packed, in texels. Decides, with the padding, how "
        "far charts "
@@ -189,7 +202,8 @@ std::vector<FilterSpec> MakeFilters() {
        "Section 3.3", atlas, texture,
        Pick({"dart_fitting_error", "max_dart_percent", "cut_to_disk", "seam_layer"})},
       {FilterId::kParameterize, "D-Charts: Parameterize", "dcharts_parameterize",
-       "Flattens each chart with as little stretch as possible and without flipped faces, cuts away what "
+       "Flattens each chart with as little stretch or change of angles as possible and without flipped "
+       "faces, cuts away what "
        "would overlap, "
        "and packs all charts into the unit square. Reads charts from the face quality, and seams from the "
        "attribute or "
@@ -198,7 +212,7 @@ std::vector<FilterSpec> MakeFilters() {
        "coordinates per wedge, texture index 0, and charts again where one had to be split. The texture "
        "itself is up to "
        "other filters.",
-       "Sections 2, 4 and 5", atlas, texture, Pick({"texture_size", "padding", "rotate"})},
+       "Sections 2, 4 and 5", atlas, texture, Pick({"method", "texture_size", "padding", "rotate"})},
       {FilterId::kTextureAtlas, "D-Charts: Texture Atlas", "dcharts_texture_atlas",
        "Makes a texture atlas: segments the surface into nearly developable charts, fills, straightens, "
        "merges and cuts "
@@ -251,8 +265,20 @@ double ValueOf(const ParamSpec& spec, const Params& params) {
   return std::visit([&](auto field) { return static_cast<double>(params.*field); }, spec.field);
 }
 
+std::string ChoiceText(const ParamSpec& spec, const Params& params) {
+  return spec.choices.at(static_cast<std::size_t>(ValueOf(spec, params)));
+}
+
 std::string RangeText(const ParamSpec& spec) {
   if (std::holds_alternative<bool Params::*>(spec.field)) return "true or false";
+  if (IsEnum(spec)) {
+    std::string text;
+    for (std::size_t i = 0; i < spec.choices.size(); ++i) {
+      if (i > 0) text += i + 1 < spec.choices.size() ? ", " : " or ";
+      text += std::string("'") + spec.choices[i] + "'";
+    }
+    return text;
+  }
   const bool bounded = spec.max < std::numeric_limits<double>::infinity();
   if (spec.min_exclusive)
     return "above " + NumberText(spec.min) + (bounded ? " and at most " + NumberText(spec.max) : "");
@@ -264,6 +290,8 @@ std::string TooltipText(const ParamSpec& spec) {
   std::string text = spec.tooltip;
   if (std::holds_alternative<bool Params::*>(spec.field))
     return text + " Default: " + (ValueOf(spec, Params()) != 0 ? "on." : "off.");
+  if (IsEnum(spec))
+    return text + " One of: " + RangeText(spec) + ". Default: '" + ChoiceText(spec, Params()) + "'.";
   return text + " Range: " + RangeText(spec) + ". Default: " + NumberText(ValueOf(spec, Params())) + ".";
 }
 

@@ -15,7 +15,7 @@ namespace dcharts {
 /// One public parameter: where it lives in Params (its default is what a default-constructed Params holds),
 /// its range and what a user is told about it.
 struct ParamSpec {
-  using Field = std::variant<int Params::*, double Params::*, bool Params::*>;
+  using Field = std::variant<int Params::*, double Params::*, bool Params::*, FlattenMethod Params::*>;
 
   const char* name;   ///< public name, snake_case, equal to the name of the field
   const char* label;  ///< shown beside the input in a dialog
@@ -25,7 +25,10 @@ struct ParamSpec {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   bool min_exclusive = false;
+  std::vector<const char*> choices = {};  ///< of an enum: what a user reads, in the order of its values
 };
+
+inline bool IsEnum(const ParamSpec& spec) { return !spec.choices.empty(); }
 
 enum class FilterId { kSegment, kFill, kStraighten, kMerge, kCut, kParameterize, kTextureAtlas, kMeasure };
 
@@ -64,10 +67,14 @@ const std::vector<FilterSpec>& AllFilters();
 /// The filter with this id.
 const FilterSpec& GetFilter(FilterId id);
 
-/// A parameter's value as a double (a bool is 0 or 1).
+/// A parameter's value as a double (a bool is 0 or 1, an enum the index of the choice).
 double ValueOf(const ParamSpec& spec, const Params& params);
 
-/// "0 or more", "above 0 and at most 4", "between 0 and 100", "true or false".
+/// The choice of an enum parameter as a user reads it.
+std::string ChoiceText(const ParamSpec& spec, const Params& params);
+
+/// "0 or more", "above 0 and at most 4", "between 0 and 100", "true or false",
+/// "'this' or 'that'".
 std::string RangeText(const ParamSpec& spec);
 
 /// The tooltip with range and default.

@@ -25,6 +25,11 @@ void AddParams(const FilterSpec& filter, List& list) {
       list.addParam(RichInt(name, defaults.**count, label, tooltip));
     else if (const auto* number = std::get_if<double Params::*>(&spec->field))
       list.addParam(RichFloat(name, static_cast<float>(defaults.**number), label, tooltip));
+    else if (IsEnum(*spec)) {
+      QStringList choices;
+      for (const char* choice : spec->choices) choices << QString(choice);
+      list.addParam(RichEnum(name, static_cast<int>(ValueOf(*spec, defaults)), choices, label, tooltip));
+    }
   }
 }
 
@@ -40,6 +45,8 @@ Params ReadParams(const FilterSpec& filter, const List& list) {
       params.** count = list.getInt(name);
     else if (const auto* number = std::get_if<double Params::*>(&spec->field))
       params.** number = FromHostFloat(static_cast<float>(list.getFloat(name)));
+    else if (const auto* method = std::get_if<FlattenMethod Params::*>(&spec->field))
+      params.** method = static_cast<FlattenMethod>(list.getEnum(name));
   }
   return params;
 }

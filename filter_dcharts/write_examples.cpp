@@ -24,6 +24,7 @@ Params PaperParams() {
   params.seed_candidates = 10;
   params.seed_percent = 0;
   params.merge_threshold = 0.01;
+  params.method = FlattenMethod::kStretchMinimizing;
   return params;
 }
 
@@ -52,8 +53,16 @@ std::string ParamElement(const ParamSpec& spec, const Params& params) {
     type = "RichBool";
     value = number != 0 ? "true" : "false";
   }
+  std::string choices;
+  if (IsEnum(spec)) {
+    type = "RichEnum";
+    for (std::size_t i = 0; i < spec.choices.size(); ++i)
+      choices += " enum_val" + std::to_string(i) + "=\"" + Escape(spec.choices[i]) + "\"";
+    choices += " enum_cardinality=\"" + std::to_string(spec.choices.size()) + "\"";
+  }
   return "  <Param name=\"" + std::string(spec.name) + "\" type=\"" + type + "\" value=\"" + value +
-         "\" description=\"" + Escape(spec.label) + "\" tooltip=\"" + Escape(TooltipText(spec)) + "\"/>\n";
+         "\" description=\"" + Escape(spec.label) + "\" tooltip=\"" + Escape(TooltipText(spec)) + "\"" +
+         choices + "/>\n";
 }
 
 // MeshLab 2020.09 needs every parameter of a filter.

@@ -27,6 +27,10 @@ std::string ParamObject(const ParamSpec& spec) {
     type = "bool";
     value = number != 0 ? "true" : "false";
   }
+  if (IsEnum(spec)) {
+    type = "str";
+    value = Quote(ChoiceText(spec, Params()));
+  }
   return "{\"name\": " + Quote(spec.name) + ", \"type\": " + Quote(type) + ", \"default\": " + value +
          ", \"text\": " + Quote(TooltipText(spec)) + "}";
 }

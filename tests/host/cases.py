@@ -13,7 +13,7 @@ _FILL = ('max_fitting_error', 'fitting_weight', 'compactness_weight', 'straightn
 _STRAIGHTEN = ('max_fitting_error',)
 _MERGE = ('merge_threshold',)
 _CUT = ('dart_fitting_error', 'max_dart_percent', 'cut_to_disk', 'seam_layer')
-_PARAMETERIZE = ('texture_size', 'padding', 'rotate')
+_PARAMETERIZE = ('method', 'texture_size', 'padding', 'rotate')
 
 # display name -> (name in Python, parameters)
 FILTERS = {
@@ -51,6 +51,9 @@ OUT_OF_RANGE = {
 
 # every value of these is in range
 BOOLEANS = ('cut_to_disk', 'seam_layer', 'rotate')
+
+# parameter -> its choices, the default first
+CHOICES = {'method': ('Stretch-minimizing', 'Conformal (ABF++)')}
 
 _TETRAHEDRON = ('0 0 0', '1 0 0', '0 1 0', '0 0 1')
 _TETRAHEDRON_FACES = ('3 0 2 1', '3 0 1 3', '3 1 2 3', '3 0 3 2')

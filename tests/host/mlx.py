@@ -4,14 +4,17 @@ import xml.etree.ElementTree as ElementTree
 
 from cases import FILTERS
 
-_READ = {'RichInt': int, 'RichFloat': float, 'RichBool': lambda text: text == 'true'}
+_READ = {'RichInt': int, 'RichFloat': float, 'RichBool': lambda text: text == 'true', 'RichEnum': int}
 
 
 def read_script(path):
     """The script's filters in order, as (name in Python, {parameter: value})."""
     steps = []
     for node in ElementTree.parse(path).getroot().iter('filter'):
-        values = {p.get('name'): _READ[p.get('type')](p.get('value')) for p in node.iter('Param')}
+        values = {}
+        for p in node.iter('Param'):
+            value = _READ[p.get('type')](p.get('value'))
+            values[p.get('name')] = p.get(f'enum_val{value}') if p.get('type') == 'RichEnum' else value
         steps.append((FILTERS[node.get('name')][0], values))
     return steps
 

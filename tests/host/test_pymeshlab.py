@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from atlas_check import EVALUATOR, SHARED, evaluate, flaws
-from cases import (BOOLEANS, FILTERS, OUT_OF_RANGE, PYTHON_NAMES, REFUSED_MESHES, STAGES, is_sentence, shipped_meshes)
+from cases import (BOOLEANS, CHOICES, FILTERS, OUT_OF_RANGE, PYTHON_NAMES, REFUSED_MESHES, STAGES, is_sentence, shipped_meshes)
 
 pymeshlab = pytest.importorskip('pymeshlab')
 pytest.importorskip('pymeshlab_dcharts', reason='the package pymeshlab_dcharts is not installed')
@@ -79,7 +79,7 @@ def test_parameters(name):
 
 def test_every_number_has_bad_values():
     for parameters in BY_PYTHON_NAME.values():
-        assert set(parameters) <= set(OUT_OF_RANGE) | set(BOOLEANS)
+        assert set(parameters) <= set(OUT_OF_RANGE) | set(BOOLEANS) | set(CHOICES)
 
 
 @pytest.mark.parametrize('mesh', MESHES, ids=lambda path: path.stem)
@@ -214,6 +214,38 @@ def test_refused_mesh(name, kind):
                           for parameter in parameters for value in OUT_OF_RANGE.get(parameter, ())])
 def test_out_of_range(painted, name, parameter, value):
     assert parameter in refusal(painted, name, **{parameter: value})
+
+
+@pytest.mark.parametrize('parameter', CHOICES)
+def test_choices(parameter, plush):
+    """Each choice has its own result, the first is the default, any other is refused."""
+    results = []
+    for choice in CHOICES[parameter]:
+        ms = load(plush)
+        figures = ms.apply_filter(ATLAS, **{parameter: choice})
+        assert figures['flipped_faces'] == 0 and figures['overlapping_faces'] == 0
+        results.append(result(ms)['wedge_tex_coord_matrix'])
+    assert len(set(results)) == len(results)
+    ms = load(plush)
+    ms.apply_filter(ATLAS)
+    assert result(ms)['wedge_tex_coord_matrix'] == results[0]
+    for wrong in ('', 'Spectral'):
+        with pytest.raises(pymeshlab.pmeshlab.InvalidEnumException):
+            load(plush).apply_filter(ATLAS, **{parameter: wrong})
+
+
+def test_conformal_keeps_angles(plush):
+    """Less shear than the least stretch, by the plugin's own figure; staged and at once the same."""
+    shear = {}
+    for choice in CHOICES['method']:
+        ms = load(plush)
+        shear[choice] = ms.dcharts_texture_atlas(method=choice)['l2_shear']
+        staged = load(plush)
+        for name in STAGES[:-1]:
+            staged.apply_filter(name)
+        staged.dcharts_parameterize(method=choice)
+        assert result(staged) == result(ms)
+    assert shear['Conformal (ABF++)'] < shear['Stretch-minimizing']
 
 
 @pytest.mark.parametrize('parameter', [p for p, values in OUT_OF_RANGE.items() if isinstance(values[0], float)])

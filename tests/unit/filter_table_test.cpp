@@ -61,6 +61,17 @@ TEST(FilterTable, DefaultsAreInRange) {
   EXPECT_LE(Params().padding, Params().texture_size / 4);
 }
 
+TEST(FilterTable, EnumsHaveAChoiceForEachValueInTheirRange) {
+  for (const ParamSpec& spec : AllParams()) {
+    EXPECT_EQ(IsEnum(spec), std::holds_alternative<FlattenMethod Params::*>(spec.field)) << spec.name;
+    if (!IsEnum(spec)) continue;
+    EXPECT_GE(spec.choices.size(), 2u) << spec.name;
+    EXPECT_EQ(spec.min, 0) << spec.name;
+    EXPECT_EQ(spec.max, static_cast<double>(spec.choices.size() - 1)) << spec.name;
+    EXPECT_EQ(ChoiceText(spec, Params()), spec.choices[0]) << spec.name;
+  }
+}
+
 TEST(FilterTable, NamesAreSnakeCase) {
   const std::regex snake_case("[a-z]+(_[a-z]+)*");
   for (const ParamSpec& spec : AllParams()) EXPECT_TRUE(std::regex_match(spec.name, snake_case)) << spec.name;
@@ -103,7 +114,9 @@ TEST(FilterTable, TooltipsHaveTextRangeAndDefault) {
 
 TEST(FilterTable, TooltipsSayWhatZeroMeans) {
   for (const ParamSpec& spec : AllParams()) {
-    if (std::holds_alternative<bool Params::*>(spec.field) || spec.min > 0 || spec.min_exclusive) continue;
+    if (std::holds_alternative<bool Params::*>(spec.field) || IsEnum(spec) || spec.min > 0 ||
+        spec.min_exclusive)
+      continue;
     EXPECT_TRUE(std::regex_search(spec.tooltip, std::regex("(^|[ ;.])0 "))) << spec.name;
   }
 }
@@ -139,6 +152,7 @@ TEST(FilterTable, RangesReadAsAPersonWritesThem) {
   EXPECT_EQ(range("max_fitting_error"), "above 0 and at most 4");
   EXPECT_EQ(range("reassigned_percent"), "between 0 and 100");
   EXPECT_EQ(range("rotate"), "true or false");
+  EXPECT_EQ(range("method"), "'Stretch-minimizing' or 'Conformal (ABF++)'");
 }
 
 }  // namespace

@@ -3,6 +3,12 @@
 
 namespace dcharts {
 
+/// How a chart is laid flat.
+enum class FlattenMethod {
+  kStretchMinimizing,  ///< least stretch [SGSH02]: what a texture wants
+  kConformal           ///< least change of angles, ABF++ [SLMB05]
+};
+
 /// Every parameter of the pipeline, with its default (written here and nowhere else), unit and range.
 /// A name means the same in every stage. Section numbers are those of D-Charts (Julius, Kraevoy, Sheffer
 /// 2005).
@@ -34,9 +40,11 @@ struct Params {
   bool seam_layer = false;   ///< add a layer of seam lines
 
   // --- flattening and packing (2, 4, 5)
-  int texture_size = 1024;  ///< side of the square texture, texels, 16..65536
-  int padding = 2;          ///< free texels between charts, 0..texture_size / 4
-  bool rotate = true;       ///< charts may be turned for packing
+  FlattenMethod method =
+      FlattenMethod::kStretchMinimizing;  ///< of finished charts; trials always have the first
+  int texture_size = 1024;                ///< side of the square texture, texels, 16..65536
+  int padding = 2;                        ///< free texels between charts, 0..texture_size / 4
+  bool rotate = true;                     ///< charts may be turned for packing
 };
 
 }  // namespace dcharts

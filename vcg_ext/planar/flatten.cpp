@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "planar/abf.h"
 #include "planar/boundary_loops.h"
 #include "planar/distortion.h"
 #include "planar/flatten_start_angles.h"
@@ -218,6 +219,37 @@ Flattening FlattenWithoutArea(const ChartMesh& chart, double extent) {
   return result;
 }
 
+// `uv` in model units with the surface's area and its figures; not ok when a triangle is flipped or lost.
+Flattening Finished(const NormalizedChart& normalized, const PlanePoints& uv) {
+  Flattening result;
+  const StretchFigures figures = MeasureStretch(normalized.mesh, ToPoints(uv, 1.0));
+  const double to_surface_area = std::sqrt(figures.SurfaceArea() / figures.UvArea());
+  result.uv = ToPoints(uv, normalized.scale * to_surface_area);
+  if (figures.FlippedOrDegenerate() > 0 || !AllAreasPositive(normalized.mesh.triangles, result.uv)) {
+    return Failure("Triangles are too small to be flattened without a flip: the chart has to be cut.");
+  }
+  result.l2_stretch = figures.L2();
+  result.linf_stretch = figures.Linf();
+  result.ok = true;
+  return result;
+}
+
+// Not ok when there is no conformal map to use; the note then says why.
+Flattening FlattenConformal(const NormalizedChart& normalized, RestShapes shapes, VertexBlockSystem& system,
+                            const Poll& poll) {
+  Flattening result;
+  std::string why;
+  const std::optional<PlanePoints> uv = ConformalMap(normalized.mesh, shapes, system, poll, why);
+  if (uv) {
+    if (ThickenThinTriangles(normalized.mesh.triangles, *uv, 1.0, shapes) == 0) {
+      result = Finished(normalized, *uv);
+    }
+    if (!result.ok) why = "its conformal map has triangles too small for texture coordinates";
+  }
+  if (!result.ok) result.note = why + ", flattened with least stretch instead";
+  return result;
+}
+
 }  // namespace
 
 Flattening Flatten(const ChartMesh& chart, const FlattenOptions& options, const Poll& poll) {
@@ -230,6 +262,12 @@ Flattening Flatten(const ChartMesh& chart, const FlattenOptions& options, const 
   const Triangles& triangles = chart.triangles;
   RestShapes shapes = RestShapesOf(normalized.mesh);
   VertexBlockSystem system(static_cast<int>(chart.positions.rows()), triangles);
+  std::string note;
+  if (options.method == FlattenMethod::kConformal) {
+    Flattening conformal = FlattenConformal(normalized, shapes, system, poll);
+    if (conformal.ok) return conformal;
+    note = conformal.note;
+  }
   PlanePoints uv;
   double energy = Start(normalized.mesh, shapes, system, poll, uv);
   if (!std::isfinite(energy)) {
@@ -244,16 +282,8 @@ Flattening Flatten(const ChartMesh& chart, const FlattenOptions& options, const 
   if (options.linf_finish) LowerWorstStretch(normalized.mesh, shapes, system, poll, uv);
   MakeSafeForFloat32(triangles, shapes, system, poll, uv);
 
-  Flattening result;
-  const StretchFigures figures = MeasureStretch(normalized.mesh, ToPoints(uv, 1.0));
-  const double to_surface_area = std::sqrt(figures.SurfaceArea() / figures.UvArea());
-  result.uv = ToPoints(uv, normalized.scale * to_surface_area);
-  if (figures.FlippedOrDegenerate() > 0 || !AllAreasPositive(triangles, result.uv)) {
-    return Failure("Triangles are too small to be flattened without a flip: the chart has to be cut.");
-  }
-  result.l2_stretch = figures.L2();
-  result.linf_stretch = figures.Linf();
-  result.ok = true;
+  Flattening result = Finished(normalized, uv);
+  if (result.ok) result.note = note;
   return result;
 }
 

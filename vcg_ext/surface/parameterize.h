@@ -55,6 +55,7 @@ class Parameterizer {
           progress_.Log(
               "Some faces are too thin for float texture coordinates; see flipped_faces and "
               "overlapping_faces.");
+        LogNotes(ids);
         return uv;
       }
       for (int f = 0; f < surface_.FaceCount(); ++f)
@@ -71,6 +72,7 @@ class Parameterizer {
     bool flat = false;
     std::vector<std::pair<int, int>> overlaps;
     std::string why;
+    std::string note;  // why it has the least stretch instead of being conformal
     double l2_stretch = 1;
   };
 
@@ -92,7 +94,7 @@ class Parameterizer {
       std::vector<Piece> pieces;
       for (const auto& faces : FacesOfCharts(ids))
         if (state_[faces.front()] != State::kDone)
-          pieces.push_back({extractor.Extract(faces), {}, false, {}, {}, 1});
+          pieces.push_back({extractor.Extract(faces), {}, false, {}, {}, {}, 1});
       if (pieces.empty()) return;
 
       std::vector<int> order(pieces.size());  // the largest first, for even threads
@@ -116,16 +118,19 @@ class Parameterizer {
       piece.flat = true;
     } else {
       if (all_disks_ && LoopsOf(piece.patch).size() > 1) return;  // a part of a disk must become a disk again
-      LayFlat(piece, poll);
+      LayFlat(piece, params_.method, poll);
     }
     if (piece.flat)
       piece.overlaps = OverlappingPairs(OnGrid(piece.uv, piece.patch.mesh.triangles), kMostOverlaps);
   }
 
-  void LayFlat(Piece& piece, const std::function<void()>& poll) const {
-    Flattening flat = Flatten(piece.patch.mesh, {}, poll);
+  void LayFlat(Piece& piece, FlattenMethod method, const std::function<void()>& poll) const {
+    FlattenOptions options;
+    options.method = method;
+    Flattening flat = Flatten(piece.patch.mesh, options, poll);
     piece.flat = flat.ok;
     piece.why = std::move(flat.why);
+    piece.note = std::move(flat.note);
     piece.uv = std::move(flat.uv);
     piece.l2_stretch = flat.l2_stretch;
     if (piece.flat)
@@ -150,11 +155,18 @@ class Parameterizer {
   }
 
   void Store(const Piece& piece) {
+    for (int f : piece.patch.faces) notes_.erase(f);
+    if (!piece.note.empty()) notes_[piece.patch.faces.front()] = piece.note;
     for (int h = 0; h < piece.patch.HalfEdgeCount(); ++h) {
       auto& wedge = wedge_[piece.patch.faces[h / 3]];
       wedge[2 * (h % 3)] = piece.uv(piece.patch.Vertex(h), 0);
       wedge[2 * (h % 3) + 1] = piece.uv(piece.patch.Vertex(h), 1);
     }
+  }
+
+  void LogNotes(const ChartIds& ids) {
+    for (const auto& [face, note] : notes_)
+      progress_.Log("chart " + std::to_string(ids[face]) + ": " + note + ".");
   }
 
   // Keeps a good piece, cuts or splits another.
@@ -269,12 +281,15 @@ class Parameterizer {
       }
     }
     const CutVertices cut = OpenAtSeams(surface_, joined);
-    Piece piece{PatchExtractor<MeshType>(surface_, cut, joined).Extract(faces), {}, false, {}, {}, 1};
+    Piece piece{PatchExtractor<MeshType>(surface_, cut, joined).Extract(faces), {}, false, {}, {}, {}, 1};
     const size_t loops = LoopsOf(piece.patch).size();
     if (loops == 0 || !CutsThatOpenHandles(piece.patch).empty() || (all_disks_ && loops > 1)) return false;
-    LayFlat(piece, [&] { progress_.Poll(); });
+    const auto poll = [&] { progress_.Poll(); };
+    LayFlat(piece, FlattenMethod::kStretchMinimizing, poll);
     constexpr double kWorthIt = 1.02;
     if (!piece.flat || piece.l2_stretch > kWorthIt) return false;
+    if (params_.method != FlattenMethod::kStretchMinimizing) LayFlat(piece, params_.method, poll);
+    if (!piece.flat) return false;
     if (!OverlappingPairs(OnGrid(piece.uv, piece.patch.mesh.triangles), 1).empty()) return false;
     Store(piece);
     seams = std::move(joined);
@@ -351,10 +366,11 @@ class Parameterizer {
   Progress& progress_;
   bool all_disks_ = false;
   std::vector<std::array<double, 6>>
-      wedge_;                  // of finished charts, each in its own frame, at the surface's scale
-  std::vector<State> state_;   // the same for all faces of a chart
-  std::vector<int> splits_;    // how often the face's chart was split because of overlaps
-  std::vector<char> cut_off_;  // the face belongs to a part that was cut off because of an overlap
+      wedge_;                         // of finished charts, each in its own frame, at the surface's scale
+  std::map<int, std::string> notes_;  // on how a chart was flattened, under one of its faces
+  std::vector<State> state_;          // the same for all faces of a chart
+  std::vector<int> splits_;           // how often the face's chart was split because of overlaps
+  std::vector<char> cut_off_;         // the face belongs to a part that was cut off because of an overlap
 };
 
 }  // namespace dcharts

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planar/abf.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planar/boundary_loops.h"
+
+namespace dcharts {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kLargestUpdate = 0.5;    // of an angle itself, per step
+constexpr double kLeastCurvature = 0.25;  // of the objective's own; keeps the Hessian positive
+constexpr double kRegularization = 1e-10;
+
+// Of the conformal map:
+constexpr double kSmallestAngle = 1e-4;  // radians; slivers have rest shapes about as thin
+constexpr int kMostSteps = 20;
+constexpr double kConverged = 1e-7;   // relative step; Newton's next one would be rounding noise
+constexpr double kGoodEnough = 1e-2;  // after the last step
+
+using Corners = std::array<double, 3>;
+
+std::size_t At(Eigen::Index i) { return static_cast<std::size_t>(i); }
+
+// Corner angles, kept away from 0 and pi, with the sum pi.
+void Normalize(double smallest, Corners& angles) {
+  double sum = 0;
+  for (double& angle : angles) {
+    angle = std::min(std::max(angle, smallest), kPi - 2 * smallest);
+    sum += angle;
+  }
+  for (double& angle : angles) angle *= kPi / sum;
+}
+
+Corners AnglesOf(const RestShape& shape) {
+  // The gradient of corner k's hat function is normal to the opposite edge, so angles between edges are
+  // pi minus angles between gradients, of which a_k are the mirrored halves.
+  const Complex a[3] = {-shape.a1 - shape.a2, shape.a1, shape.a2};
+  Corners angles;
+  for (int k = 0; k < 3; ++k) {
+    const Complex &x = a[(k + 1) % 3], &y = a[(k + 2) % 3];
+    angles[At(k)] = kPi - std::atan2(std::abs(Cross(x, y)), Dot(x, y));
+  }
+  return angles;
+}
+
+// What is left of q when the triangle's own condition is eliminated: d_i (q_i - mean of q weighted with d).
+// Written with differences, because d q alone may be far larger in a triangle with an angle near pi.
+template <class T>
+std::array<T, 3> Project(const Corners& d, const std::array<T, 3>& q) {
+  const double sum = d[0] + d[1] + d[2];
+  std::array<T, 3> projected;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    projected[i] = (d[j] * (q[i] - q[j]) + d[k] * (q[i] - q[k])) * (d[i] / sum);
+  }
+  return projected;
+}
+
+// Around an interior vertex the angles wanted are scaled so that they close.
+void CloseAroundVertices(const Triangles& triangles, const std::vector<char>& on_boundary,
+                         std::vector<Corners>& wanted) {
+  std::vector<double> sum(on_boundary.size(), 0.0);
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) sum[At(triangles(t, k))] += wanted[At(t)][At(k)];
+  }
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t v = At(triangles(t, k));
+      if (!on_boundary[v]) wanted[At(t)][At(k)] *= 2 * kPi / sum[v];
+    }
+  }
+}
+
+// Two vertices far from each other: the one farthest from vertex 0, and the one farthest from that.
+std::array<Eigen::Index, 2> FarVertices(const Points3& positions) {
+  std::array<Eigen::Index, 2> far = {0, 0};
+  for (int pass = 0; pass < 2; ++pass) {
+    const Eigen::RowVector3d from = positions.row(far[0]);
+    far[1] = far[0];
+    (positions.rowwise() - from).rowwise().squaredNorm().maxCoeff(&far[0]);
+  }
+  if (far[0] == far[1]) far[1] = far[0] == 0 ? 1 : 0;
+  return far;
+}
+
+bool HasNoFlip(const Triangles& triangles, const PlanePoints& uv) {
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const Complex z0 = uv[At(triangles(t, 0))];
+    if (!(Cross(uv[At(triangles(t, 1))] - z0, uv[At(triangles(t, 2))] - z0) > 0)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+AngleFlattening::AngleFlattening(const ChartMesh& chart, const RestShapes& shapes, double smallest_angle)
+    : chart_(chart), smallest_angle_(smallest_angle) {
+  const std::size_t vertex_count = At(chart.positions.rows());
+  on_boundary_.assign(vertex_count, 0);
+  for (const std::vector<int>& loop : BoundaryLoops(chart.triangles)) {
+    for (const int v : loop) on_boundary_[At(v)] = 1;
+  }
+  angles_.reserve(shapes.size());
+  for (const RestShape& shape : shapes) {
+    angles_.push_back(AnglesOf(shape));
+    Normalize(smallest_angle_, angles_.back());
+  }
+  wanted_ = angles_;
+  CloseAroundVertices(chart.triangles, on_boundary_, wanted_);
+  multiplier_.assign(vertex_count, Complex(0, 0));
+}
+
+// What a change of the angle at `corner` does to the conditions of the vertex at corner k: to the sum of
+// angles (real part) and to the logarithm of the product of sines (imaginary part).
+Complex AngleFlattening::Row(const Corners& angle, int k, int corner) const {
+  if (corner == k) return {1, 0};
+  const double cotangent = 1 / std::tan(angle[At(corner)]);
+  return {0, corner == (k + 1) % 3 ? cotangent : -cotangent};
+}
+
+// The inverse of the Lagrangian's Hessian. The objective gives 1 / wanted^2, a length condition its
+// multiplier over the squared sine.
+Corners AngleFlattening::Compliance(Eigen::Index triangle) const {
+  Corners compliance;
+  for (int i = 0; i < 3; ++i) {
+    const double wanted = wanted_[At(triangle)][At(i)];
+    const double sine = std::sin(angles_[At(triangle)][At(i)]);
+    double pull = 0;
+    for (const int k : {(i + 1) % 3, (i + 2) % 3}) {
+      const std::size_t v = At(chart_.triangles(triangle, k));
+      if (!on_boundary_[v]) pull += (i == (k + 1) % 3 ? 1 : -1) * multiplier_[v].imag();
+    }
+    const double relative = 1 + wanted * wanted / (sine * sine) * pull;
+    compliance[At(i)] = wanted * wanted / std::max(relative, kLeastCurvature);
+  }
+  return compliance;
+}
+
+bool AngleFlattening::Step(VertexBlockSystem& system) {
+  const Triangles& triangles = chart_.triangles;
+  const std::size_t vertex_count = on_boundary_.size();
+  PlanePoints residual(vertex_count, Complex(0, 0));
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    if (!on_boundary_[v]) residual[v] = {2 * kPi, 0};
+  }
+  std::vector<Corners> compliances(angles_.size()), changes(angles_.size());
+  system.SetZero();
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const Corners& angle = angles_[At(t)];
+    const Corners d = compliances[At(t)] = Compliance(t);
+    const double rest = kPi - angle[0] - angle[1] - angle[2], sum = d[0] + d[1] + d[2];
+    Corners toward;  // what the objective alone would do
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double wanted = wanted_[At(t)][i];
+      toward[i] = (wanted - angle[i]) / (wanted * wanted);
+    }
+    toward = Project(d, toward);
+    for (std::size_t i = 0; i < 3; ++i) toward[i] += d[i] / sum * rest;
+    changes[At(t)] = toward;
+
+    std::array<Complex, 3> rows[3], projected[3];
+    for (int k = 0; k < 3; ++k) {
+      for (int i = 0; i < 3; ++i) rows[k][At(i)] = Row(angle, k, i);
+      projected[k] = Project(d, rows[k]);
+    }
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t v = At(triangles(t, k));
+      if (on_boundary_[v]) continue;
+      residual[v] -= Complex(angle[At(k)], std::log(std::sin(angle[At((k + 1) % 3)])) -
+                                               std::log(std::sin(angle[At((k + 2) % 3)])));
+      for (std::size_t i = 0; i < 3; ++i) residual[v] -= rows[k][i] * toward[i];
+      for (int l = k; l < 3; ++l) {
+        if (on_boundary_[At(triangles(t, l))]) continue;
+        Block2 block;
+        // The differences of rows, because the sum of their products cancels.
+        for (std::size_t i = 0; i < 3; ++i) {
+          const std::size_t j = (i + 1) % 3;
+          const Complex c = rows[k][i] - rows[k][j], e = rows[l][i] - rows[l][j];
+          const double w = d[i] * (d[j] / sum);
+          block.m00 += w * c.real() * e.real();
+          block.m01 += w * c.real() * e.imag();
+          block.m10 += w * c.imag() * e.real();
+          block.m11 += w * c.imag() * e.imag();
+        }
+        system.Add(t, k, l, block);
+      }
+    }
+  }
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    if (on_boundary_[v]) system.AddDiagonal(static_cast<Eigen::Index>(v), 1);
+  }
+  system.Regularize(kRegularization);
+  if (!system.Factorize()) return false;
+  const PlanePoints multiplier = system.Solve(residual);
+
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    Corners pull;
+    for (int i = 0; i < 3; ++i) {
+      pull[At(i)] = 0;
+      for (int k = 0; k < 3; ++k) {
+        const std::size_t v = At(triangles(t, k));
+        if (!on_boundary_[v]) pull[At(i)] += Dot(Row(angles_[At(t)], k, i), multiplier[v]);
+      }
+    }
+    pull = Project(compliances[At(t)], pull);
+    for (std::size_t i = 0; i < 3; ++i) {
+      changes[At(t)][i] += pull[i];
+      if (!std::isfinite(changes[At(t)][i])) return false;
+    }
+  }
+  double squares = 0;
+  for (std::size_t t = 0; t < angles_.size(); ++t) {
+    const Corners before = angles_[t];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double bound = kLargestUpdate * before[i];
+      angles_[t][i] += std::min(std::max(changes[t][i], -bound), bound);
+    }
+    Normalize(smallest_angle_, angles_[t]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double moved = (angles_[t][i] - before[i]) / wanted_[t][i];
+      squares += moved * moved;
+    }
+  }
+  multiplier_ = multiplier;
+  last_step_ = std::sqrt(squares / (3 * static_cast<double>(angles_.size())));
+  return true;
+}
+
+std::optional<PlanePoints> AngleFlattening::LayOut(VertexBlockSystem& system) const {
+  const Triangles& triangles = chart_.triangles;
+  // Least squares: sum of weight |beta|^2 over triangles with the angles found.
+  system.SetZero();
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const Corners& angle = angles_[At(t)];
+    const RestShape shape = ShapeFromCorners(0, std::sin(angle[2]), std::polar(std::sin(angle[1]), angle[0]));
+    // area times |beta|^2, which is the same for every size of the triangle
+    const double weight = shape.twice_area;
+    const Complex a[3] = {-shape.a1 - shape.a2, shape.a1, shape.a2};
+    for (int k = 0; k < 3; ++k) {
+      for (int l = k; l < 3; ++l) system.Add(t, k, l, BlockOf(weight * ConjMul(a[l], a[k]), Complex(0, 0)));
+    }
+  }
+  const std::array<Eigen::Index, 2> far = FarVertices(chart_.positions);
+  PlanePoints right_hand_side(on_boundary_.size(), Complex(0, 0));
+  const double distance = (chart_.positions.row(far[0]) - chart_.positions.row(far[1])).norm();
+  system.Pin(far[0], Complex(0, 0), right_hand_side);
+  system.Pin(far[1], Complex(distance > 0 ? distance : 1.0, 0), right_hand_side);
+  if (!system.Factorize()) return std::nullopt;
+  return system.Solve(right_hand_side);
+}
+
+std::optional<PlanePoints> ConformalMap(const ChartMesh& chart, const RestShapes& shapes,
+                                        VertexBlockSystem& system, const std::function<void()>& poll,
+                                        std::string& why) {
+  AngleFlattening flattening(chart, shapes, kSmallestAngle);
+  for (int step = 0; step < kMostSteps; ++step) {
+    if (poll) poll();
+    if (!flattening.Step(system)) {
+      why = "the angles of its conformal map can't be computed";
+      return std::nullopt;
+    }
+    if (flattening.LastStep() < kConverged) break;
+  }
+  if (!(flattening.LastStep() < kGoodEnough)) {
+    why = "the angles of its conformal map don't settle";
+    return std::nullopt;
+  }
+  std::optional<PlanePoints> uv = flattening.LayOut(system);
+  if (!uv || !HasNoFlip(chart.triangles, *uv)) {
+    why = "its conformal map folds";
+    return std::nullopt;
+  }
+  return uv;
+}
+
+}  // namespace dcharts
