@@ -96,8 +96,9 @@ bool HasNoFlip(const Triangles& triangles, const PlanePoints& uv) {
 
 }  // namespace
 
-AngleFlattening::AngleFlattening(const ChartMesh& chart, const RestShapes& shapes, double smallest_angle)
-    : chart_(chart), smallest_angle_(smallest_angle) {
+AngleFlattening::AngleFlattening(const ChartMesh& chart, const RestShapes& shapes, double smallest_angle,
+                                 int relative)
+    : chart_(chart), smallest_angle_(smallest_angle), relative_(relative) {
   const std::size_t vertex_count = At(chart.positions.rows());
   on_boundary_.assign(vertex_count, 0);
   for (const std::vector<int>& loop : BoundaryLoops(chart.triangles)) {
@@ -121,20 +122,20 @@ Complex AngleFlattening::Row(const Corners& angle, int k, int corner) const {
   return {0, corner == (k + 1) % 3 ? cotangent : -cotangent};
 }
 
-// The inverse of the Lagrangian's Hessian. The objective gives 1 / wanted^2, a length condition its
+// The inverse of the Lagrangian's Hessian. The objective gives 1 / variance, a length condition its
 // multiplier over the squared sine.
 Corners AngleFlattening::Compliance(Eigen::Index triangle) const {
   Corners compliance;
   for (int i = 0; i < 3; ++i) {
-    const double wanted = wanted_[At(triangle)][At(i)];
+    const double variance = Variance(wanted_[At(triangle)][At(i)]);
     const double sine = std::sin(angles_[At(triangle)][At(i)]);
     double pull = 0;
     for (const int k : {(i + 1) % 3, (i + 2) % 3}) {
       const std::size_t v = At(chart_.triangles(triangle, k));
       if (!on_boundary_[v]) pull += (i == (k + 1) % 3 ? 1 : -1) * multiplier_[v].imag();
     }
-    const double relative = 1 + wanted * wanted / (sine * sine) * pull;
-    compliance[At(i)] = wanted * wanted / std::max(relative, kLeastCurvature);
+    const double curvature = 1 + variance / (sine * sine) * pull;
+    compliance[At(i)] = variance / std::max(curvature, kLeastCurvature);
   }
   return compliance;
 }
@@ -155,7 +156,7 @@ bool AngleFlattening::Step(VertexBlockSystem& system) {
     Corners toward;  // what the objective alone would do
     for (std::size_t i = 0; i < 3; ++i) {
       const double wanted = wanted_[At(t)][i];
-      toward[i] = (wanted - angle[i]) / (wanted * wanted);
+      toward[i] = (wanted - angle[i]) / Variance(wanted);
     }
     toward = Project(d, toward);
     for (std::size_t i = 0; i < 3; ++i) toward[i] += d[i] / sum * rest;
@@ -255,7 +256,7 @@ std::optional<PlanePoints> AngleFlattening::LayOut(VertexBlockSystem& system) co
 std::optional<PlanePoints> ConformalMap(const ChartMesh& chart, const RestShapes& shapes,
                                         VertexBlockSystem& system, const std::function<void()>& poll,
                                         std::string& why) {
-  AngleFlattening flattening(chart, shapes, kSmallestAngle);
+  AngleFlattening flattening(chart, shapes, kSmallestAngle, 1);
   for (int step = 0; step < kMostSteps; ++step) {
     if (poll) poll();
     if (!flattening.Step(system)) {

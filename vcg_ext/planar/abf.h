@@ -15,13 +15,15 @@
 namespace dcharts {
 
 /// Angle-based flattening in the reduced form of ABF++ (Sheffer, Levy, Mogilnitsky, Bogomyakov 2005): the
-/// corner angles of a flat triangulation that are nearest to the surface's, relative to their size. They add
+/// corner angles of a flat triangulation that are nearest to the surface's. They add
 /// up to pi in a triangle and to 2 pi around an interior vertex, and the edge lengths they imply agree around
 /// it (the products of sines). Of a chart with several loops, the angles need not close around a hole.
 class AngleFlattening {
  public:
-  /// No angle gets below `smallest_angle` (radians) or above pi minus twice that. `chart` must outlive this.
-  AngleFlattening(const ChartMesh& chart, const RestShapes& shapes, double smallest_angle);
+  /// What counts is the squared change of an angle over the angle to the power of `relative`: 2 as in the
+  /// paper, 1 for a smaller sum of plain squares. No angle gets below `smallest_angle` (radians) or above pi
+  /// minus twice that. `chart` must outlive this.
+  AngleFlattening(const ChartMesh& chart, const RestShapes& shapes, double smallest_angle, int relative = 2);
 
   /// One Newton step on the angles. The Hessian of the Lagrangian is diagonal, the triangles' conditions are
   /// eliminated, and a positive definite system with two unknowns per interior vertex remains. False when it
@@ -39,10 +41,12 @@ class AngleFlattening {
   using Corners = std::array<double, 3>;
 
   Complex Row(const Corners& angle, int k, int corner) const;
+  double Variance(double wanted) const { return relative_ == 2 ? wanted * wanted : wanted; }
   Corners Compliance(Eigen::Index triangle) const;
 
   const ChartMesh& chart_;
   double smallest_angle_;
+  int relative_;
   double last_step_ = 0;
   std::vector<char> on_boundary_;  // per vertex
   std::vector<Corners> wanted_;    // the surface's angles, scaled to close around interior vertices
