@@ -25,10 +25,11 @@ using Poll = std::function<void()>;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Symmetric Dirichlet energies over 4, minus 1, as in StretchEnergy:
-constexpr double kGoodStart = 2;     // a start from angles above it is compared with Tutte's
-constexpr double kNewtonWorks = 3;   // above it Newton steps crawl and reweighted ones don't
-constexpr double kHopeless = 1e3;    // still above it afterwards: the chart has to be cut
-constexpr int kReweightedBlock = 3;  // steps
+constexpr double kGoodStart = 2;      // a start from angles above it is compared with Tutte's
+constexpr double kNearlyFlat = 0.05;  // below it Sander's energy is minimized at once
+constexpr double kNewtonWorks = 3;    // above it Newton steps crawl and reweighted ones don't
+constexpr double kHopeless = 1e3;     // still above it afterwards: the chart has to be cut
+constexpr int kReweightedBlock = 3;   // steps
 constexpr int kMaxBlocks = 40;
 constexpr double kBlockGain = 0.05;  // share of the energy; a block that gains less is the last
 
@@ -92,7 +93,7 @@ double ScaleToBest(const Triangles& triangles, const RestShapes& shapes, PlanePo
 // The better of the two starts; infinite energy when neither is free of flips.
 double Start(const ChartMesh& chart, const RestShapes& shapes, VertexBlockSystem& system, const Poll& poll,
              PlanePoints& uv) {
-  constexpr int kAngleSteps = 2;
+  constexpr int kAngleSteps = 1;
   double energy = kInfinity;
   if (std::optional<PlanePoints> start = StartFromAngles(chart, shapes, kAngleSteps, system)) {
     uv = std::move(*start);
@@ -120,6 +121,7 @@ double MinimizeSymmetricDirichlet(const Triangles& triangles, const RestShapes& 
         Descend(dirichlet, {StepKind::kReweighted, kReweightedBlock, 0}, triangles, shapes, system, poll, uv);
     if (energy > (1 - kBlockGain) * before) break;
   }
+  if (energy < kNearlyFlat) return energy;
   return Descend(dirichlet, {StepKind::kProjectedNewton, 60, 1e-2}, triangles, shapes, system, poll, uv);
 }
 
@@ -150,9 +152,9 @@ void LowerWorstStretch(const ChartMesh& chart, RestShapes& shapes, VertexBlockSy
                        const Poll& poll, PlanePoints& uv) {
   constexpr int kSteps = 10;
   constexpr int kPatience = 3;               // steps without a gain
-  constexpr double kDearestMean = 1.1;       // L2 - 1 may grow by a tenth for it
+  constexpr double kDearestMean = 1.05;      // L2 - 1 may grow by a twentieth for it
   constexpr double kReferenceOfWorst = 0.9;  // the tail begins just below the worst triangle
-  constexpr double kGain = 1e-3;             // of Linf - 1
+  constexpr double kGain = 3e-3;             // of Linf - 1
   constexpr double kNothingToLower = 1e-7;   // Linf - 1
   RelaxSlivers(chart.triangles, uv, shapes);
   StretchFigures figures = MeasureStretch(chart, ToPoints(uv, 1.0));
@@ -278,7 +280,7 @@ Flattening Flatten(const ChartMesh& chart, const FlattenOptions& options, const 
     return Failure("The chart can't be flattened without extreme stretch: it has to be cut.");
   }
   RelaxSlivers(triangles, uv, shapes);
-  Descend({Kind::kSander}, {StepKind::kProjectedNewton, 15, 1e-4}, triangles, shapes, system, poll, uv);
+  Descend({Kind::kSander}, {StepKind::kProjectedNewton, 15, 1e-3}, triangles, shapes, system, poll, uv);
   if (options.linf_finish) LowerWorstStretch(normalized.mesh, shapes, system, poll, uv);
   MakeSafeForFloat32(triangles, shapes, system, poll, uv);
 

@@ -2,6 +2,7 @@
 #include "planar/vertex_block_system.h"
 
 #include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
 #include <algorithm>
 
 namespace dcharts {
@@ -38,7 +39,6 @@ VertexBlockSystem::VertexBlockSystem(int vertex_count, const Triangles& triangle
     : vertex_count_(vertex_count),
       triangles_(triangles),
       place_(FillReducingPlaces(vertex_count, triangles)),
-      diagonal_(At(vertex_count)),
       edges_(At(triangles.rows()) * 3) {
   // The earlier neighbours of every vertex, by place.
   std::vector<std::vector<int>> earlier(At(vertex_count));
@@ -48,37 +48,12 @@ VertexBlockSystem::VertexBlockSystem(int vertex_count, const Triangles& triangle
       earlier[At(std::max(a, b))].push_back(std::min(a, b));
     }
   }
-  std::vector<int> column_start(At(vertex_count));
-  int entries = 0;
-  for (int v = 0; v < vertex_count; ++v) {
-    std::vector<int>& list = earlier[At(v)];
+  matrix_.start.push_back(0);
+  for (std::vector<int>& list : earlier) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
-    column_start[At(v)] = entries;
-    entries += 4 * static_cast<int>(list.size()) + 3;
-  }
-  matrix_.resize(2 * vertex_count, 2 * vertex_count);
-  matrix_.resizeNonZeros(entries);
-  int* outer = matrix_.outerIndexPtr();
-  int* inner = matrix_.innerIndexPtr();
-  for (int v = 0; v < vertex_count; ++v) {
-    const std::vector<int>& list = earlier[At(v)];
-    int* at = inner + column_start[At(v)];
-    for (int half = 0; half < 2; ++half) {
-      outer[2 * v + half] = static_cast<int>(at - inner);
-      for (const int row : list) {
-        *at++ = 2 * row;
-        *at++ = 2 * row + 1;
-      }
-      *at++ = 2 * v;
-      if (half == 1) *at++ = 2 * v + 1;
-    }
-  }
-  outer[2 * vertex_count] = entries;
-
-  for (int v = 0; v < vertex_count; ++v) {
-    const int p = place_[At(v)], before = 2 * static_cast<int>(earlier[At(p)].size());
-    diagonal_[At(v)] = {outer[2 * p] + before, outer[2 * p + 1] + before, false};
+    matrix_.row.insert(matrix_.row.end(), list.begin(), list.end());
+    matrix_.start.push_back(static_cast<int>(matrix_.row.size()));
   }
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     for (int e = 0; e < 3; ++e) {
@@ -86,86 +61,79 @@ VertexBlockSystem::VertexBlockSystem(int vertex_count, const Triangles& triangle
                 b = place_[At(triangles(t, kEdgeCorners[e][1]))];
       const int row = std::min(a, b), column = std::max(a, b);
       const std::vector<int>& list = earlier[At(column)];
-      const int before = 2 * static_cast<int>(std::lower_bound(list.begin(), list.end(), row) - list.begin());
-      edges_[At(3 * t + e)] = {outer[2 * column] + before, outer[2 * column + 1] + before, a > b};
+      const auto found = std::lower_bound(list.begin(), list.end(), row);
+      edges_[At(3 * t + e)] = {matrix_.start[At(column)] + static_cast<int>(found - list.begin()), a > b};
     }
   }
   SetZero();
-  solver_.analyzePattern(matrix_);
+  solver_.Analyze(matrix_);
 }
 
 void VertexBlockSystem::SetZero() {
-  std::fill(matrix_.valuePtr(), matrix_.valuePtr() + matrix_.nonZeros(), 0.0);
+  matrix_.above.assign(matrix_.row.size(), Eigen::Matrix2d::Zero());
+  matrix_.diagonal.assign(At(vertex_count_), Eigen::Matrix2d::Zero());
 }
 
 void VertexBlockSystem::Add(Eigen::Index triangle, int k, int l, const Block2& block) {
-  double* values = matrix_.valuePtr();
+  double* to = nullptr;
+  bool transposed = false;
   if (k == l) {
-    const Slot& slot = diagonal_[At(triangles_(triangle, k))];
-    values[slot.first] += block.m00;
-    values[slot.second] += block.m01;
-    values[slot.second + 1] += block.m11;
-    return;
+    to = matrix_.diagonal[At(place_[At(triangles_(triangle, k))])].data();
+  } else {
+    const Slot& slot = edges_[At(3 * triangle + k + l - 1)];
+    to = matrix_.above[At(slot.at)].data();
+    transposed = slot.transposed;
   }
-  const Slot& slot = edges_[At(3 * triangle + k + l - 1)];
-  values[slot.first] += block.m00;
-  values[slot.first + 1] += slot.transposed ? block.m01 : block.m10;
-  values[slot.second] += slot.transposed ? block.m10 : block.m01;
-  values[slot.second + 1] += block.m11;
+  to[0] += block.m00;  // column by column
+  to[1] += transposed ? block.m01 : block.m10;
+  to[2] += transposed ? block.m10 : block.m01;
+  to[3] += block.m11;
 }
 
 void VertexBlockSystem::AddDiagonal(Eigen::Index vertex, double value) {
-  const Slot& slot = diagonal_[At(vertex)];
-  matrix_.valuePtr()[slot.first] += value;
-  matrix_.valuePtr()[slot.second + 1] += value;
+  matrix_.diagonal[At(place_[At(vertex)])].diagonal().array() += value;
 }
 
 void VertexBlockSystem::Regularize(double factor) {
-  const double* values = matrix_.valuePtr();
   double sum = 0;
-  for (const Slot& slot : diagonal_) sum += values[slot.first] + values[slot.second + 1];
+  for (const int place : place_) sum += matrix_.diagonal[At(place)].trace();
   const double value = factor * sum / (2.0 * vertex_count_);
   for (int v = 0; v < vertex_count_; ++v) AddDiagonal(v, value);
 }
 
 void VertexBlockSystem::Pin(Eigen::Index vertex, const Complex& value, PlanePoints& right_hand_side) {
-  const int p = place_[At(vertex)];
-  std::vector<double> shift(2 * At(vertex_count_), 0.0);
-  const double pinned[2] = {value.real(), value.imag()};
-  for (int column = 0; column < matrix_.outerSize(); ++column) {
-    for (Matrix::InnerIterator it(matrix_, column); it; ++it) {
-      const int row = static_cast<int>(it.row());
-      const bool in_row = row / 2 == p, in_column = column / 2 == p;
-      if (!in_row && !in_column) continue;
-      if (in_row && !in_column) shift[At(column)] += it.value() * pinned[row % 2];
-      if (in_column && !in_row) shift[At(row)] += it.value() * pinned[column % 2];
-      it.valueRef() = row == column ? 1.0 : 0.0;
+  const int pinned = place_[At(vertex)];
+  const Eigen::Vector2d pinned_at(value.real(), value.imag());
+  std::vector<Eigen::Vector2d> shift(At(vertex_count_), Eigen::Vector2d::Zero());
+  for (int column = 0; column < vertex_count_; ++column) {
+    for (int p = matrix_.start[At(column)]; p < matrix_.start[At(column) + 1]; ++p) {
+      const int row = matrix_.row[At(p)];
+      if (row != pinned && column != pinned) continue;
+      Eigen::Matrix2d& block = matrix_.above[At(p)];
+      if (row == pinned) shift[At(column)] += block.transpose() * pinned_at;
+      if (column == pinned) shift[At(row)] += block * pinned_at;
+      block.setZero();
     }
   }
+  matrix_.diagonal[At(pinned)].setIdentity();
   for (int v = 0; v < vertex_count_; ++v) {
-    const std::size_t at = 2 * At(place_[At(v)]);
-    right_hand_side[At(v)] -= Complex(shift[at], shift[at + 1]);
+    const Eigen::Vector2d& moved = shift[At(place_[At(v)])];
+    right_hand_side[At(v)] -= Complex(moved.x(), moved.y());
   }
   right_hand_side[At(vertex)] = value;
 }
 
-bool VertexBlockSystem::Factorize() {
-  solver_.factorize(matrix_);
-  if (solver_.info() != Eigen::Success) return false;
-  return solver_.vectorD().minCoeff() > 0;
-}
+bool VertexBlockSystem::Factorize() { return solver_.Factorize(matrix_); }
 
 PlanePoints VertexBlockSystem::Solve(const PlanePoints& right_hand_side) const {
-  Eigen::VectorXd b(2 * vertex_count_);
+  std::vector<Eigen::Vector2d> x(At(vertex_count_));
   for (int v = 0; v < vertex_count_; ++v) {
-    b[2 * place_[At(v)]] = right_hand_side[At(v)].real();
-    b[2 * place_[At(v)] + 1] = right_hand_side[At(v)].imag();
+    x[At(place_[At(v)])] = {right_hand_side[At(v)].real(), right_hand_side[At(v)].imag()};
   }
-  const Eigen::VectorXd x = solver_.solve(b);
+  solver_.Solve(x);
   PlanePoints solution(At(vertex_count_));
-  for (int v = 0; v < vertex_count_; ++v) {
-    solution[At(v)] = {x[2 * place_[At(v)]], x[2 * place_[At(v)] + 1]};
-  }
+  for (int v = 0; v < vertex_count_; ++v)
+    solution[At(v)] = {x[At(place_[At(v)])].x(), x[At(place_[At(v)])].y()};
   return solution;
 }
 

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
+#include <Eigen/Core>
 
+#include "planar/block_cholesky.h"
 #include "planar/chart_mesh.h"
 #include "planar/complex_plane.h"
 
@@ -52,21 +52,18 @@ class VertexBlockSystem {
   PlanePoints Solve(const PlanePoints& right_hand_side) const;
 
  private:
-  using Matrix = Eigen::SparseMatrix<double>;
-
-  /// Where a block's two columns begin in the array of values.
+  /// Where the block of an edge is.
   struct Slot {
-    int first = 0, second = 0;
+    int at = 0;
     bool transposed = false;
   };
 
   int vertex_count_;
   const Triangles& triangles_;
-  std::vector<int> place_;      // position of a vertex in the fill-reducing order
-  std::vector<Slot> diagonal_;  // per vertex
-  std::vector<Slot> edges_;     // per triangle: corners 01, 02, 12
-  Matrix matrix_;               // upper triangle, in the fill-reducing order
-  Eigen::SimplicialLDLT<Matrix, Eigen::Upper, Eigen::NaturalOrdering<int>> solver_;
+  std::vector<int> place_;   // position of a vertex in the fill-reducing order
+  std::vector<Slot> edges_;  // per triangle: corners 01, 02, 12
+  BlockMatrix matrix_;       // in the fill-reducing order
+  BlockCholesky solver_;
 };
 
 }  // namespace dcharts
