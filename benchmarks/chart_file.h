@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Files of charts, for the programs here and in Python: one chart after the other, each as two int32 (number of
-/// vertices, of triangles), 3 doubles per vertex and 3 int32 per triangle, in the machine's byte order.
+/// Files of charts, for the programs here and in Python: one chart after the other, each as two int32 (number
+/// of vertices, of triangles), 3 doubles per vertex and 3 int32 per triangle, in the machine's byte order.
 #pragma once
 
 #include <cstdint>
