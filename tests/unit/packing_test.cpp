@@ -150,7 +150,7 @@ TEST(Packing, ATurnedSquareIsTurnedUpright) {
 TEST(Packing, ChartsAreApartByThePadding) {
   for (int padding : {0, 2, 17})
     for (int size : {256, 4096}) {
-      const auto outlines = RandomStars(static_cast<unsigned>(padding + size), 25);
+      const auto outlines = RandomStars(static_cast<unsigned>(padding + size), 15);
       const PackOptions options{size, padding, true};
       const Packing packing = Pack(outlines, options);
       SCOPED_TRACE("padding " + std::to_string(padding) + ", texture " + std::to_string(size));
@@ -186,8 +186,8 @@ TEST(Packing, ManyTinyChartsBesideALargeOne) {
 
 TEST(Packing, PaddingGivesWayWhenThereIsNoRoom) {
   std::vector<Points2> outlines;
-  for (int k = 0; k < 400; ++k) outlines.push_back(Box(1, 1));
-  const PackOptions options{64, 4, true};  // 20 x 20 charts in 64 x 64 texels
+  for (int k = 0; k < 150; ++k) outlines.push_back(Box(1, 1));
+  const PackOptions options{64, 6, true};  // 12 x 12 charts in 64 x 64 texels
   const Packing packing = Pack(outlines, options);
   EXPECT_LT(packing.padding, options.padding);
   EXPECT_GT(packing.scale, 0);
@@ -237,7 +237,7 @@ TEST(Packing, SmallTextureAndVeryLongChart) {
 }
 
 TEST(Packing, SameInputSameResult) {
-  const auto outlines = RandomStars(31, 40);
+  const auto outlines = RandomStars(31, 15);
   const Packing a = Pack(outlines, {}), b = Pack(outlines, {});
   EXPECT_EQ(a.scale, b.scale);
   for (size_t k = 0; k < outlines.size(); ++k) {
