@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+import ctypes
 import os
 import pathlib
 import sys
@@ -11,6 +12,13 @@ from cases import ROOT  # noqa: E402
 from forky import root_folder  # noqa: E402
 from hosts import Meshlab2020, NotHere  # noqa: E402
 from xsession import XSession, missing_tools  # noqa: E402
+
+
+@pytest.fixture(autouse=True)
+def flushed_c_output():
+    """What libraries print goes to the test that caused it, not after pytest's last line."""
+    yield
+    ctypes.CDLL(None).fflush(None)
 
 
 @pytest.fixture(scope='session')
