@@ -34,8 +34,7 @@ check_format() {
 
 sanitized_unit_tests() {
   local build=$repo/build-sanitized
-  ensure_build -DDCHARTS_BUILD_TESTS=ON -DDCHARTS_SANITIZE=address,undefined -DCMAKE_BUILD_TYPE=Debug \
-    -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
+  ensure_build -DDCHARTS_BUILD_TESTS=ON -DCMAKE_BUILD_TYPE=RelWithDebInfo -DDCHARTS_SANITIZE=address,undefined \
     -DDCHARTS_PLUGIN_PYMESHLAB=OFF -DDCHARTS_PLUGIN_2025=OFF -DDCHARTS_PLUGIN_2020=OFF
   build_targets unit_tests_2025
   # Tests that only run the same code again and compare would take most of the time.
