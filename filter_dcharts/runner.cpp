@@ -29,17 +29,6 @@ bool Has(const FilterSpec& filter, const std::string& name) {
   return false;
 }
 
-void CheckMesh(const SurfaceData* mesh) {
-  if (mesh == nullptr) throw Error("There is no mesh. Open or create one first.");
-  if (!mesh->faces.empty()) return;
-  if (mesh->vertices.empty())
-    throw Error("The mesh is empty: it has no vertices and no faces. Open or create another.");
-  throw Error(
-      "The mesh has no faces, only points. Make a surface of them first, for example with 'Surface "
-      "Reconstruction: "
-      "Ball Pivoting' or 'Surface Reconstruction: Screened Poisson'.");
-}
-
 SurfaceChange Call(FilterId id, const SurfaceData& mesh, const Params& params, Progress& progress) {
   switch (id) {
     case FilterId::kSegment:
@@ -84,7 +73,7 @@ SurfaceChange RunFilter(const FilterSpec& filter, const SurfaceData* mesh, const
                         Progress& progress) {
   return WithSentences([&] {
     CheckParams(filter, params);
-    CheckMesh(mesh);
+    if (mesh == nullptr) throw Error("There is no mesh. Open or create one first.");
     const auto start = std::chrono::steady_clock::now();
     SurfaceChange change = Call(filter.id, *mesh, params, progress);
     change.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -68,11 +68,11 @@ class Parameterizer {
 
   struct Piece {
     ChartPatch patch;
-    Points2 uv;
+    Points2 uv{};
     bool flat = false;
-    std::vector<std::pair<int, int>> overlaps;
-    std::string why;
-    std::string note;  // why it has the least stretch instead of being conformal
+    std::vector<std::pair<int, int>> overlaps{};
+    std::string why{};
+    std::string note{};  // why it has the least stretch instead of being conformal
     double l2_stretch = 1;
   };
 
@@ -93,8 +93,7 @@ class Parameterizer {
       PatchExtractor<MeshType> extractor(surface_, cut, before);
       std::vector<Piece> pieces;
       for (const auto& faces : FacesOfCharts(ids))
-        if (state_[faces.front()] != State::kDone)
-          pieces.push_back({extractor.Extract(faces), {}, false, {}, {}, {}, 1});
+        if (state_[faces.front()] != State::kDone) pieces.push_back({extractor.Extract(faces)});
       if (pieces.empty()) return;
 
       std::vector<int> order(pieces.size());  // the largest first, for even threads
@@ -281,7 +280,7 @@ class Parameterizer {
       }
     }
     const CutVertices cut = OpenAtSeams(surface_, joined);
-    Piece piece{PatchExtractor<MeshType>(surface_, cut, joined).Extract(faces), {}, false, {}, {}, {}, 1};
+    Piece piece{PatchExtractor<MeshType>(surface_, cut, joined).Extract(faces)};
     const size_t loops = LoopsOf(piece.patch).size();
     if (loops == 0 || !CutsThatOpenHandles(piece.patch).empty() || (all_disks_ && loops > 1)) return false;
     const auto poll = [&] { progress_.Poll(); };

@@ -44,17 +44,17 @@ class Stage {
   std::chrono::steady_clock::time_point start_;
 };
 
-void ReportCharts(const Workspace& work, const ChartIds& ids, Report& report) {
+void ReportCharts(const Workspace& work, const ChartIds& ids, const SeamMask& seams, Report& report) {
   report.charts = ChartCount(ids);
   report.unassigned_faces = static_cast<int>(std::count(ids.begin(), ids.end(), kUnassigned));
-  report.seam_length = SeamLength(work.Surface(), ChartBorders(work.Surface(), ids));
+  report.seam_length = SeamLength(work.Surface(), seams);
 }
 
 // What Segment, Fill, Straighten and Merge have in common.
 SurfaceChange ChartsWritten(const Workspace& work, const ChartIds& ids, SurfaceChange change) {
   work.WriteCharts(ids, change);
   change.remove_seams = true;
-  ReportCharts(work, ids, change.report);
+  ReportCharts(work, ids, ChartBorders(work.Surface(), ids), change.report);
   return change;
 }
 
@@ -70,8 +70,7 @@ void FinishAtlas(const Workspace& work, ChartIds& ids, SeamMask& seams, const Pa
   work.WriteCharts(ids, change);
   work.WriteTexcoords(uv, change);
   change.remove_seams = true;
-  ReportCharts(work, ids, change.report);
-  change.report.seam_length = SeamLength(work.Surface(), seams);
+  ReportCharts(work, ids, seams, change.report);
   MeasureAtlas(work.Surface(), ids, uv, change.report);
 }
 
@@ -135,8 +134,7 @@ SurfaceChange Cut(const SurfaceData& mesh, const Params& params, Progress& progr
   work.WriteSeams(seams, change);
   work.WriteTexcoords(ProvisionalTexcoords(work.Surface(), seams), change);
   if (params.seam_layer) work.WriteSeamLines(seams, change);
-  ReportCharts(work, ids, change.report);
-  change.report.seam_length = SeamLength(work.Surface(), seams);
+  ReportCharts(work, ids, seams, change.report);
   return change;
 }
 
@@ -194,15 +192,15 @@ SurfaceChange Measure(const SurfaceData& mesh, const Params&, Progress& progress
   Stage stage("measure", "Measuring...", 0, 1, progress, change.report);
   if (!work.HasTexcoords()) {
     progress.Log("The mesh has no wedge texture coordinates: only its charts are measured.");
-    ReportCharts(work, work.ReadCharts(), change.report);
+    const ChartIds charts = work.ReadCharts();
+    ReportCharts(work, charts, ChartBorders(work.Surface(), charts), change.report);
     return change;
   }
   const SeamMask seams = work.TextureSeams();
   const WedgeTexcoords uv = work.ReadTexcoords();
   ChartIds ids(work.Surface().FaceCount(), 0);
   SplitAndCompact(work.Surface(), ids, &seams);
-  ReportCharts(work, ids, change.report);
-  change.report.seam_length = SeamLength(work.Surface(), seams);
+  ReportCharts(work, ids, seams, change.report);
   int outside = 0;
   for (const auto& t : uv)
     outside += std::any_of(t.begin(), t.end(), [](float x) { return !(x >= 0 && x <= 1); });
