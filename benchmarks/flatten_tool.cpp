@@ -49,8 +49,7 @@ void WriteCharts(const std::string& in, const std::string& out, int chart_count)
   dcharts::ChartIds ids = work.ReadCharts();
   dcharts::SeamMask seams;
   if (!work.ReadSeams(ids, seams)) throw std::runtime_error("The seams don't fit the charts.");
-  const dcharts::CutVertices cut = dcharts::OpenAtSeams(work.Surface(), seams);
-  dcharts::PatchExtractor<dcharts::SurfaceMesh> extractor(work.Surface(), cut, seams);
+  dcharts::PatchExtractor<dcharts::SurfaceMesh> extractor(work.Surface(), seams);
   std::ofstream file(out, std::ios::binary);
   const auto charts = dcharts::FacesOfCharts(ids);
   for (const auto& faces : charts) dcharts::bench::WriteChart(file, extractor.Extract(faces).mesh);

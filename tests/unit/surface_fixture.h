@@ -57,8 +57,7 @@ class TestSurface {
   }
 
   ChartPatch Patch(const ChartIds& ids, const SeamMask& seams, int id) const {
-    const CutVertices cut = OpenAtSeams(*graph_, seams);
-    return PatchExtractor<SurfaceMesh>(*graph_, cut, seams).Extract(FacesOfCharts(ids)[id]);
+    return PatchExtractor<SurfaceMesh>(*graph_, seams).Extract(FacesOfCharts(ids)[id]);
   }
   ChartPatch WholePatch() const {
     return Patch(ChartIds(graph_->FaceCount(), 0), SeamMask(graph_->FaceCount(), 0), 0);

@@ -18,30 +18,36 @@ struct CutVertices {
   int count = 0;
 };
 
-template <class MeshType>
-CutVertices OpenAtSeams(const SurfaceGraph<MeshType>& surface, const SeamMask& seams) {
-  UnionFind sets(surface.HalfEdgeCount());
-  for (int h = 0; h < surface.HalfEdgeCount(); ++h) {
-    const int o = surface.Opposite(h);
-    if (o < h || IsSeam(seams, h)) continue;
+/// Of half-edges with `opposite(h)` across (-1: none).
+template <class Opposite>
+CutVertices GlueCorners(int half_edge_count, const Opposite& opposite) {
+  UnionFind sets(half_edge_count);
+  for (int h = 0; h < half_edge_count; ++h) {
+    const int o = opposite(h);
+    if (o < h) continue;
     sets.Join(h, Next(o));
     sets.Join(Next(h), o);
   }
   CutVertices cut;
-  cut.of_corner.resize(surface.HalfEdgeCount());
-  for (int h = 0; h < surface.HalfEdgeCount(); ++h) {
+  cut.of_corner.resize(half_edge_count);
+  for (int h = 0; h < half_edge_count; ++h) {
     const int root = sets.Find(h);
     cut.of_corner[h] = root == h ? cut.count++ : cut.of_corner[root];
   }
   return cut;
 }
 
+template <class MeshType>
+CutVertices OpenAtSeams(const SurfaceGraph<MeshType>& surface, const SeamMask& seams) {
+  return GlueCorners(surface.HalfEdgeCount(),
+                     [&](int h) { return IsSeam(seams, h) ? -1 : surface.Opposite(h); });
+}
+
 /// One chart, cut open along the seams, with its own numbering and topology.
 struct ChartPatch {
-  std::vector<int> faces;       ///< face of the surface per local face
-  ChartMesh mesh;               ///< positions and triangles, local
-  std::vector<int> opposite;    ///< per local half-edge 3 f + i, -1 at the chart's boundary
-  std::vector<int> cut_vertex;  ///< per local vertex, its number in CutVertices
+  std::vector<int> faces;     ///< face of the surface per local face
+  ChartMesh mesh;             ///< positions and triangles, local
+  std::vector<int> opposite;  ///< per local half-edge 3 f + i, -1 at the chart's boundary
 
   int HalfEdgeCount() const { return static_cast<int>(opposite.size()); }
   int VertexCount() const { return static_cast<int>(mesh.positions.rows()); }
@@ -63,53 +69,44 @@ struct ChartPatch {
   }
 };
 
-/// Takes charts out of a surface. Keeps its maps, so that many small charts cost only their own size.
+/// The patch cut open along `edges` (its half-edges, one per edge or both).
+ChartPatch CutOpen(const ChartPatch& patch, const std::vector<int>& edges);
+
+/// Takes charts out of a surface. Keeps its map, so that many small charts cost only their own size.
 template <class MeshType>
 class PatchExtractor {
  public:
-  PatchExtractor(const SurfaceGraph<MeshType>& surface, const CutVertices& cut, const SeamMask& seams)
-      : surface_(surface),
-        cut_(cut),
-        seams_(seams),
-        local_vertex_(cut.count, -1),
-        local_face_(surface.FaceCount(), -1) {}
+  /// Both must outlive the extractor.
+  PatchExtractor(const SurfaceGraph<MeshType>& surface, const SeamMask& seams)
+      : surface_(surface), seams_(seams), local_face_(surface.FaceCount(), -1) {}
 
+  /// `faces`: one chart, or several that are to be seen as one where no seam is between them.
   ChartPatch Extract(const std::vector<int>& faces) {
     ChartPatch patch;
     patch.faces = faces;
     const int face_count = static_cast<int>(faces.size());
-    patch.mesh.triangles.resize(face_count, 3);
-    for (int f = 0; f < face_count; ++f) {
-      local_face_[faces[f]] = f;
-      for (int i = 0; i < 3; ++i) {
-        int& local = local_vertex_[cut_.of_corner[3 * faces[f] + i]];
-        if (local < 0) {
-          local = static_cast<int>(patch.cut_vertex.size());
-          patch.cut_vertex.push_back(cut_.of_corner[3 * faces[f] + i]);
-          positions_.push_back(surface_.Position(faces[f], i));
-        }
-        patch.mesh.triangles(f, i) = local;
-      }
-    }
-    patch.mesh.positions.resize(static_cast<Eigen::Index>(positions_.size()), 3);
-    for (size_t v = 0; v < positions_.size(); ++v) patch.mesh.positions.row(v) = positions_[v];
+    for (int f = 0; f < face_count; ++f) local_face_[faces[f]] = f;
     patch.opposite.assign(3 * face_count, -1);
     for (int h = 0; h < 3 * face_count; ++h) {
       const int s = patch.SurfaceHalfEdge(h), o = surface_.Opposite(s);
-      if (o >= 0 && !IsSeam(seams_, s)) patch.opposite[h] = 3 * local_face_[o / 3] + o % 3;
+      if (o >= 0 && local_face_[o / 3] >= 0 && !IsSeam(seams_, s))
+        patch.opposite[h] = 3 * local_face_[o / 3] + o % 3;
     }
-    for (int v : patch.cut_vertex) local_vertex_[v] = -1;
     for (int f : faces) local_face_[f] = -1;
-    positions_.clear();
+    const CutVertices cut = GlueCorners(patch.HalfEdgeCount(), [&](int h) { return patch.opposite[h]; });
+    patch.mesh.triangles.resize(face_count, 3);
+    patch.mesh.positions.resize(cut.count, 3);
+    for (int h = 0; h < patch.HalfEdgeCount(); ++h) {
+      patch.mesh.triangles(h / 3, h % 3) = cut.of_corner[h];
+      patch.mesh.positions.row(cut.of_corner[h]) = surface_.Position(faces[h / 3], h % 3);
+    }
     return patch;
   }
 
  private:
   const SurfaceGraph<MeshType>& surface_;
-  const CutVertices& cut_;
   const SeamMask& seams_;
-  std::vector<int> local_vertex_, local_face_;
-  std::vector<Eigen::Vector3d> positions_;
+  std::vector<int> local_face_;
 };
 
 }  // namespace dcharts

@@ -71,9 +71,8 @@ class ChartCutter {
   template <class Visit>
   void ForEachChart(const ChartIds& ids, const SeamMask& seams, const Visit& visit) {
     // Patches are taken from the state at the start: cuts of one chart don't touch another's.
-    const CutVertices cut = OpenAtSeams(surface_, seams);
     const SeamMask before = seams;
-    PatchExtractor<MeshType> extractor(surface_, cut, before);
+    PatchExtractor<MeshType> extractor(surface_, before);
     for (const auto& faces : FacesOfCharts(ids)) {
       progress_.Poll();
       visit(extractor.Extract(faces));

@@ -77,8 +77,7 @@ class Parameterizer {
   };
 
   bool AllDisks(const ChartIds& ids, const SeamMask& seams) const {
-    const CutVertices cut = OpenAtSeams(surface_, seams);
-    PatchExtractor<MeshType> extractor(surface_, cut, seams);
+    PatchExtractor<MeshType> extractor(surface_, seams);
     for (const auto& faces : FacesOfCharts(ids))
       if (LoopsOf(extractor.Extract(faces)).size() != 1) return false;
     return true;
@@ -88,9 +87,8 @@ class Parameterizer {
   // open, so it ends: a single face is always flat.
   void FlattenAll(ChartIds& ids, SeamMask& seams) {
     for (;;) {
-      const CutVertices cut = OpenAtSeams(surface_, seams);
       const SeamMask before = seams;
-      PatchExtractor<MeshType> extractor(surface_, cut, before);
+      PatchExtractor<MeshType> extractor(surface_, before);
       std::vector<Piece> pieces;
       for (const auto& faces : FacesOfCharts(ids))
         if (state_[faces.front()] != State::kDone) pieces.push_back({extractor.Extract(faces)});
@@ -279,8 +277,7 @@ class Parameterizer {
           joined[f] = static_cast<std::uint8_t>(joined[f] & ~(1 << (h % 3)));
       }
     }
-    const CutVertices cut = OpenAtSeams(surface_, joined);
-    Piece piece{PatchExtractor<MeshType>(surface_, cut, joined).Extract(faces)};
+    Piece piece{PatchExtractor<MeshType>(surface_, joined).Extract(faces)};
     const size_t loops = LoopsOf(piece.patch).size();
     if (loops == 0 || !CutsThatOpenHandles(piece.patch).empty() || (all_disks_ && loops > 1)) return false;
     const auto poll = [&] { progress_.Poll(); };
