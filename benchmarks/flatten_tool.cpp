@@ -5,6 +5,7 @@
 //   number of
 //                                              vertices, double cpu seconds, 2 doubles per vertex
 //   flatten_tool conformal CHARTS OUT          the same, conformally
+//   flatten_tool trial CHARTS L2_BOUND         trial flattening beside the full one, a line for each chart
 // Files of charts are those of chart_file.h.
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +15,7 @@
 #include "chart_file.h"
 #include "dcharts.h"
 #include "planar/flatten.h"
+#include "planar/trial_flatten.h"
 #include "surface/chart_patch.h"
 #include "surface/workspace.h"
 
@@ -77,6 +79,32 @@ void FlattenCharts(const std::string& in, const std::string& out, dcharts::Flatt
   std::printf("total %.3f s\n", total);
 }
 
+// Without writing: a line per chart, the trial beside the full flattening.
+void TryCharts(const std::string& in, double l2_bound) {
+  dcharts::TrialOptions options;
+  options.l2_bound = l2_bound;
+  double total = 0, total_full = 0;
+  for (const ChartMesh& chart : dcharts::bench::ReadCharts(in)) {
+    const std::clock_t start = std::clock();
+    const dcharts::TrialFlattening trial = dcharts::TrialFlatten(chart, options);
+    const std::clock_t middle = std::clock();
+    const dcharts::Flattening flat = dcharts::Flatten(chart);
+    const double seconds = static_cast<double>(middle - start) / CLOCKS_PER_SEC;
+    const double full_seconds = static_cast<double>(std::clock() - middle) / CLOCKS_PER_SEC;
+    std::printf(
+        "%7ld faces  trial %s  L2 %.6f  Linf %.4f  %.4f s | full %s  L2 %.6f  Linf %.4f  %.4f s  %s\n",
+        static_cast<long>(chart.triangles.rows()),
+        trial.ok         ? "ok "
+        : trial.rejected ? "rej"
+                         : "no ",
+        trial.l2_stretch, trial.linf_stretch, seconds, flat.ok ? "ok " : "no ", flat.l2_stretch,
+        flat.linf_stretch, full_seconds, trial.why.c_str());
+    total += seconds;
+    total_full += full_seconds;
+  }
+  std::printf("trials %.3f s, full %.3f s\n", total, total_full);
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -88,9 +116,12 @@ int main(int count, char** arguments) {
       FlattenCharts(words[1], words[2], dcharts::FlattenMethod::kStretchMinimizing);
     } else if (words.size() == 3 && words[0] == "conformal") {
       FlattenCharts(words[1], words[2], dcharts::FlattenMethod::kConformal);
+    } else if (words.size() == 3 && words[0] == "trial") {
+      TryCharts(words[1], std::atof(words[2].c_str()));
     } else {
       std::fputs(
-          "usage: flatten_tool charts MESH OUT CHART_COUNT | flatten CHARTS OUT | conformal CHARTS OUT\n",
+          "usage: flatten_tool charts MESH OUT CHART_COUNT | flatten CHARTS OUT | conformal CHARTS OUT | "
+          "trial CHARTS L2_BOUND\n",
           stderr);
       return 2;
     }

@@ -4,15 +4,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "planar/abf.h"
 #include "planar/boundary_loops.h"
 #include "planar/distortion.h"
-#include "planar/flatten_start_angles.h"
+#include "planar/flatten_start.h"
 #include "planar/flatten_start_tutte.h"
-#include "planar/line_search.h"
+#include "planar/normalized_chart.h"
+#include "planar/plane_points.h"
 #include "planar/rest_shapes.h"
 #include "planar/stretch_descent.h"
 
@@ -22,94 +22,13 @@ namespace {
 using Kind = StretchEnergy::Kind;
 using Poll = std::function<void()>;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // Symmetric Dirichlet energies over 4, minus 1, as in StretchEnergy:
-constexpr double kGoodStart = 2;      // a start from angles above it is compared with Tutte's
 constexpr double kNearlyFlat = 0.05;  // below it Sander's energy is minimized at once
 constexpr double kNewtonWorks = 3;    // above it Newton steps crawl and reweighted ones don't
 constexpr double kHopeless = 1e3;     // still above it afterwards: the chart has to be cut
 constexpr int kReweightedBlock = 3;   // steps
 constexpr int kMaxBlocks = 40;
 constexpr double kBlockGain = 0.05;  // share of the energy; a block that gains less is the last
-
-// A chart at the origin with a surface area of 1, and what it was in model units.
-struct NormalizedChart {
-  ChartMesh mesh;
-  double extent = 0;  // half the longest side of the bounding box
-  double scale = 0;   // sqrt(area); zero when no triangle has an area
-};
-
-NormalizedChart Normalized(const ChartMesh& chart) {
-  NormalizedChart normalized;
-  normalized.mesh = chart;
-  Points3& positions = normalized.mesh.positions;
-  const Eigen::RowVector3d low = positions.colwise().minCoeff(), high = positions.colwise().maxCoeff();
-  normalized.extent = (0.5 * high - 0.5 * low).maxCoeff();
-  if (!(normalized.extent > 0)) return normalized;
-  positions = ((positions.rowwise() - (0.5 * low + 0.5 * high)) / normalized.extent).eval();
-  double area = 0, largest = 0;
-  for (Eigen::Index t = 0; t < chart.triangles.rows(); ++t) {
-    const Eigen::RowVector3d corner = positions.row(chart.triangles(t, 0));
-    const Eigen::Vector3d e1 = (positions.row(chart.triangles(t, 1)) - corner).transpose();
-    const Eigen::Vector3d e2 = (positions.row(chart.triangles(t, 2)) - corner).transpose();
-    const double triangle_area = 0.5 * e1.cross(e2).norm();
-    area += triangle_area;
-    largest = std::max(largest, triangle_area);
-  }
-  const Eigen::RowVector3d box = (high - low) / normalized.extent;
-  if (!(largest > kAreaFloor * box.squaredNorm())) return normalized;
-  positions /= std::sqrt(area);
-  normalized.scale = normalized.extent * std::sqrt(area);
-  return normalized;
-}
-
-double SymmetricDirichlet(const Triangles& triangles, const RestShapes& shapes, const PlanePoints& uv) {
-  return MapEnergy({Kind::kSymmetricDirichlet}, triangles, shapes, uv);
-}
-
-// Brings a start to the size at which its symmetric Dirichlet energy is least; returns that energy, infinite
-// when the map flips.
-double ScaleToBest(const Triangles& triangles, const RestShapes& shapes, PlanePoints& uv) {
-  double growing = 0, shrinking = 0;
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    const RestShape& shape = shapes[static_cast<std::size_t>(t)];
-    const Complex z0 = uv[static_cast<std::size_t>(triangles(t, 0))];
-    const Complex e1 = uv[static_cast<std::size_t>(triangles(t, 1))] - z0;
-    const Complex e2 = uv[static_cast<std::size_t>(triangles(t, 2))] - z0;
-    const double determinant = Cross(e1, e2) / shape.twice_area;
-    if (!(determinant > 0)) return kInfinity;
-    const double squares = 2 * (std::norm(Mul(shape.a1, e1) + Mul(shape.a2, e2)) +
-                                std::norm(ConjMul(shape.a1, e1) + ConjMul(shape.a2, e2)));
-    growing += shape.weight * squares;
-    shrinking += shape.weight * squares / determinant / determinant;
-  }
-  const double factor = std::sqrt(std::sqrt(shrinking / growing));
-  if (!std::isfinite(factor) || !(factor > 0)) return kInfinity;
-  for (Complex& z : uv) z *= factor;
-  return SymmetricDirichlet(triangles, shapes, uv);
-}
-
-// The better of the two starts; infinite energy when neither is free of flips.
-double Start(const ChartMesh& chart, const RestShapes& shapes, VertexBlockSystem& system, const Poll& poll,
-             PlanePoints& uv) {
-  constexpr int kAngleSteps = 1;
-  double energy = kInfinity;
-  if (std::optional<PlanePoints> start = StartFromAngles(chart, shapes, kAngleSteps, system)) {
-    uv = std::move(*start);
-    energy = ScaleToBest(chart.triangles, shapes, uv);
-  }
-  if (energy < kGoodStart) return energy;
-  if (poll) poll();
-  if (std::optional<PlanePoints> start = StartFromTutte(chart)) {
-    const double tutte = ScaleToBest(chart.triangles, shapes, *start);
-    if (tutte < energy) {
-      uv = std::move(*start);
-      energy = tutte;
-    }
-  }
-  return energy;
-}
 
 // Reweighted steps while the map is bad, then Newton's. Returns the energy reached.
 double MinimizeSymmetricDirichlet(const Triangles& triangles, const RestShapes& shapes, double energy,
@@ -123,14 +42,6 @@ double MinimizeSymmetricDirichlet(const Triangles& triangles, const RestShapes& 
   }
   if (energy < kNearlyFlat) return energy;
   return Descend(dirichlet, {StepKind::kProjectedNewton, 60, 1e-2}, triangles, shapes, system, poll, uv);
-}
-
-Points2 ToPoints(const PlanePoints& uv, double factor) {
-  Points2 points(static_cast<Eigen::Index>(uv.size()), 2);
-  for (std::size_t v = 0; v < uv.size(); ++v) {
-    points.row(static_cast<Eigen::Index>(v)) << uv[v].real() * factor, uv[v].imag() * factor;
-  }
-  return points;
 }
 
 double WorstContraction(const Triangles& triangles, const RestShapes& shapes, const PlanePoints& uv) {
@@ -271,7 +182,7 @@ Flattening Flatten(const ChartMesh& chart, const FlattenOptions& options, const 
     note = conformal.note;
   }
   PlanePoints uv;
-  double energy = Start(normalized.mesh, shapes, system, poll, uv);
+  double energy = FlattenStart(normalized.mesh, shapes, system, poll, uv);
   if (!std::isfinite(energy)) {
     return Failure("No flat start without flipped triangles was found: the chart has to be cut.");
   }

@@ -62,9 +62,9 @@ double Descend(const StretchEnergy& energy, const DescentOptions& options, const
       slope = 0;
       for (std::size_t v = 0; v < uv.size(); ++v) slope += Dot(gradient[v], direction[v]);
       if (!(slope < 0) || !std::isfinite(slope)) continue;
-      if (-slope <= kNothingToGain) return value;
+      if (-slope <= kNothingToGain || value + slope > options.bound) return value;
       moved = SearchLine(energy, triangles, shapes, direction, slope, options.longest_step, uv, value);
-      if (-0.5 * slope <= options.tolerance * value) return value;
+      if (-0.5 * slope <= options.tolerance * value || value <= options.enough) return value;
     }
     if (!moved) return value;
   }

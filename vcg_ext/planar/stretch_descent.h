@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 
 #include "planar/chart_mesh.h"
 #include "planar/complex_plane.h"
@@ -20,6 +21,9 @@ struct DescentOptions {
   int max_steps = 50;
   double tolerance = 1e-4;  ///< stop when a step can gain no more than this share of the energy
   double longest_step = 1;  ///< >= 1; Newton steps fall short on steep powers
+  double enough = 0;        ///< stop when the energy has come down to this
+  /// Stop before a step that could gain twice of what it promises and still be above this.
+  double bound = std::numeric_limits<double>::infinity();
 };
 
 /// Lowers the energy of `uv` without flipping a triangle and returns the energy reached. All areas must be

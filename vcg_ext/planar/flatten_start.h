@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+
+#include "planar/chart_mesh.h"
+#include "planar/complex_plane.h"
+#include "planar/rest_shapes.h"
+#include "planar/vertex_block_system.h"
+
+namespace dcharts {
+
+/// Puts a map without flipped triangles in `uv`, at its best size: the one from angles when that is good,
+/// else the better of it and Tutte's. Returns its symmetric Dirichlet energy (see StretchEnergy), infinite
+/// when neither is free of flips. `chart` must be normalized.
+double FlattenStart(const ChartMesh& chart, const RestShapes& shapes, VertexBlockSystem& system,
+                    const std::function<void()>& poll, PlanePoints& uv);
+
+/// Brings a map to the size at which its symmetric Dirichlet energy is least; returns that energy, infinite
+/// when the map flips.
+double ScaleToBest(const Triangles& triangles, const RestShapes& shapes, PlanePoints& uv);
+
+}  // namespace dcharts

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planar/trial_flatten.h"
+
+#include <cmath>
+#include <utility>
+
+#include "planar/boundary_loops.h"
+#include "planar/distortion.h"
+#include "planar/flatten_start.h"
+#include "planar/line_search.h"
+#include "planar/normalized_chart.h"
+#include "planar/plane_points.h"
+#include "planar/rest_shapes.h"
+#include "planar/stretch_descent.h"
+
+namespace dcharts {
+namespace {
+
+using Kind = StretchEnergy::Kind;
+using Poll = std::function<void()>;
+
+// Symmetric Dirichlet energies over 4, minus 1, as in StretchEnergy:
+constexpr double kNewtonWorks = 3;  // above it reweighted steps come first
+constexpr double kFarFromFlat = 3;  // still above it after them: no chart that anybody would want
+constexpr int kReweightedSteps = 3;
+constexpr double kCloseEnough = 0.05;  // of L2 - 1: what the last Newton step may still gain
+
+double Dirichlet(const Triangles& triangles, const RestShapes& shapes, const PlanePoints& uv) {
+  return MapEnergy({Kind::kSymmetricDirichlet}, triangles, shapes, uv);
+}
+
+TrialFlattening NoMap(const std::string& why) {
+  TrialFlattening result;
+  result.why = why;
+  return result;
+}
+
+// The map to begin with and its symmetric Dirichlet energy.
+double Begin(const ChartMesh& chart, const RestShapes& shapes, const Points2* start,
+             VertexBlockSystem& system, const Poll& poll, PlanePoints& uv) {
+  if (start != nullptr && start->rows() == chart.positions.rows() && start->allFinite()) {
+    uv = ToPlanePoints(*start);
+    const double energy = ScaleToBest(chart.triangles, shapes, uv);
+    if (energy < kNewtonWorks) return energy;
+  }
+  return FlattenStart(chart, shapes, system, poll, uv);
+}
+
+TrialFlattening Measured(const NormalizedChart& normalized, const RestShapes& shapes, const PlanePoints& uv) {
+  TrialFlattening result;
+  const StretchFigures figures = MeasureStretch(normalized.mesh, ToPoints(uv, 1.0));
+  result.energy = Dirichlet(normalized.mesh.triangles, shapes, uv);
+  result.l2_stretch = figures.L2();
+  result.linf_stretch = figures.Linf();
+  result.uv = ToPoints(uv, normalized.scale * std::sqrt(figures.SurfaceArea() / figures.UvArea()));
+  return result;
+}
+
+}  // namespace
+
+TrialFlattening TrialFlatten(const ChartMesh& chart, const TrialOptions& options, const Poll& poll) {
+  std::string why = WhyNotAChart(chart);
+  if (!why.empty()) return NoMap(why);
+  const NormalizedChart normalized = Normalized(chart);
+  if (!(normalized.scale > 0)) return NoMap("The chart has no area.");
+  if (poll) poll();
+
+  const Triangles& triangles = chart.triangles;
+  RestShapes shapes = RestShapesOf(normalized.mesh);
+  VertexBlockSystem system(static_cast<int>(chart.positions.rows()), triangles);
+  PlanePoints uv;
+  double energy = Begin(normalized.mesh, shapes, options.start, system, poll, uv);
+  if (!std::isfinite(energy)) return NoMap("No flat start without flipped triangles was found.");
+  if (energy > kNewtonWorks) {
+    energy = Descend({Kind::kSymmetricDirichlet}, {StepKind::kReweighted, kReweightedSteps, 0}, triangles,
+                     shapes, system, poll, uv);
+  }
+  const double bound = options.l2_bound - 1;
+  if (energy < kFarFromFlat) {
+    RelaxSlivers(triangles, uv, shapes);
+    // At the best scale of the map, Sander's energy is L2 - 1.
+    DescentOptions steps{StepKind::kProjectedNewton, options.newton_steps, kCloseEnough};
+    steps.bound = bound;
+    if (options.decide_only) steps.enough = bound;
+    Descend({Kind::kSander}, steps, triangles, shapes, system, poll, uv);
+  }
+  TrialFlattening result = Measured(normalized, shapes, uv);
+  result.ok = result.l2_stretch - 1 <= bound;
+  result.rejected = !result.ok;
+  return result;
+}
+
+}  // namespace dcharts
