@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "surface/straighten.h"
+#include "surface/straighten_shortest_path.h"
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@ using test::TestSurface;
 
 ChartIds Straightened(const TestSurface& surface, ChartIds ids, const Params& params = {}) {
   Progress progress;
-  Straightener<SurfaceMesh>(*surface, params, progress).Run(ids);
+  ShortestPathStraightener<SurfaceMesh>(*surface, params, progress).Run(ids);
   return ids;
 }
 

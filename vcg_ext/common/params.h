@@ -9,6 +9,12 @@ enum class FlattenMethod {
   kConformal           ///< least change of angles, ABF++ [SLMB05]
 };
 
+/// How the border between two charts is straightened.
+enum class StraightenMethod {
+  kGraphCut,     ///< the cheapest cut through a band around it, of edge lengths and fitting errors
+  kShortestPath  ///< as in the paper
+};
+
 /// Every parameter of the pipeline, with its default (written here and nowhere else), unit and range.
 /// A name means the same in every stage. Section numbers are those of D-Charts (Julius, Kraevoy, Sheffer
 /// 2005).
@@ -27,6 +33,9 @@ struct Params {
   double seed_percent = 1.0;  ///< k as a percentage of the chart's faces (the larger count is used), 0..100
   double small_hole_percent =
       1.0;  ///< holes up to this share of the surface area are grown over, percent, 0..100
+
+  // --- straightening (3.3)
+  StraightenMethod straighten_by = StraightenMethod::kGraphCut;
 
   // --- merging (3.3)
   double merge_threshold =

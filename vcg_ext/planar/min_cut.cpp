@@ -12,11 +12,19 @@ namespace dcharts {
 
 std::vector<bool> MinCut(int node_count, const std::vector<FlowEdge>& edges, const std::vector<int>& sources,
                          const std::vector<int>& sinks) {
-  using Graph =
-      boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, boost::no_property, int, int>;
-  const int source = node_count, sink = node_count + 1;
   double total = 1;
   for (const FlowEdge& e : edges) total += e.capacity;
+  std::vector<double> pull(node_count, 0);
+  for (int s : sources) pull[s] = total;
+  for (int t : sinks) pull[t] = -total;
+  return MinCut(pull, edges);
+}
+
+std::vector<bool> MinCut(const std::vector<double>& pull, const std::vector<FlowEdge>& edges) {
+  using Graph =
+      boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, boost::no_property, int, int>;
+  const int node_count = static_cast<int>(pull.size());
+  const int source = node_count, sink = node_count + 1;
 
   // Each undirected edge is two arcs; a terminal's arc has a partner without capacity. Sorted by start, as
   // CSR wants.
@@ -32,8 +40,10 @@ std::vector<bool> MinCut(int node_count, const std::vector<FlowEdge>& edges, con
     arcs.push_back({b, a, backward, k});
   };
   for (const FlowEdge& e : edges) add(e.a, e.b, e.capacity, e.capacity);
-  for (int s : sources) add(source, s, total, 0);
-  for (int t : sinks) add(t, sink, total, 0);
+  for (int n = 0; n < node_count; ++n) {
+    if (pull[n] > 0) add(source, n, pull[n], 0);
+    if (pull[n] < 0) add(n, sink, -pull[n], 0);
+  }
   const int arc_count = static_cast<int>(arcs.size());
   std::vector<int> order(arc_count), place(arc_count);
   std::iota(order.begin(), order.end(), 0);

@@ -16,4 +16,9 @@ struct FlowEdge {
 std::vector<bool> MinCut(int node_count, const std::vector<FlowEdge>& edges, const std::vector<int>& sources,
                          const std::vector<int>& sinks);
 
+/// The cheapest way to part all nodes in two: pays the capacity of each edge between the sides and |pull| of
+/// each node on the side it is not pulled to, which is the first for pull > 0, the second for pull < 0.
+/// Returns per node whether it is on the first side, which is as small as it can be at that price.
+std::vector<bool> MinCut(const std::vector<double>& pull, const std::vector<FlowEdge>& edges);
+
 }  // namespace dcharts

@@ -19,7 +19,8 @@ namespace dcharts {
 // Compiled here once for each vcglib.
 template class Lloyd<SurfaceMesh>;
 template class HoleFiller<SurfaceMesh>;
-template class Straightener<SurfaceMesh>;
+template class GraphCutStraightener<SurfaceMesh>;
+template class ShortestPathStraightener<SurfaceMesh>;
 template class Merger<SurfaceMesh>;
 template class ChartCutter<SurfaceMesh>;
 template class Parameterizer<SurfaceMesh>;
@@ -105,7 +106,7 @@ SurfaceChange Straighten(const SurfaceData& mesh, const Params& params, Progress
   ChartIds ids = work.ReadFilledCharts(progress);
   {
     Stage stage("straighten", "Straightening boundaries...", 0.02, 1, progress, change.report);
-    Straightener<SurfaceMesh>(work.Surface(), params, progress).Run(ids);
+    StraightenBorders(work.Surface(), params, progress, ids);
   }
   return ChartsWritten(work, ids, std::move(change));
 }
@@ -171,7 +172,7 @@ SurfaceChange TextureAtlas(const SurfaceData& mesh, const Params& params, Progre
   }
   {
     Stage stage("straighten", "Straightening boundaries...", 0.35, 0.42, progress, change.report);
-    Straightener<SurfaceMesh>(surface, params, progress).Run(ids);
+    StraightenBorders(surface, params, progress, ids);
   }
   {
     Stage stage("merge", "Merging charts...", 0.42, 0.45, progress, change.report);
