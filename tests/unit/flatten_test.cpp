@@ -173,6 +173,19 @@ TEST(Flatten, LinfFinishLowersTheWorstStretchAtLittleCost) {
   EXPECT_LE(worst.l2_stretch - 1, 1.1 * (mean.l2_stretch - 1) + 1e-12);
 }
 
+TEST(Flatten, LinfFinishKeepsWithinABoundOnTheMean) {
+  const ChartMesh chart = SphereCap(30, 2.0);
+  FlattenOptions without, free, bounded;
+  without.linf_finish = false;
+  const double mean = Flatten(chart, without).l2_stretch, most = Flatten(chart, free).l2_stretch;
+  ASSERT_GT(most, mean);
+  bounded.l2_bound = 0.5 * (mean + most);
+  EXPECT_LE(Flatten(chart, bounded).l2_stretch, bounded.l2_bound);
+  // A chart above it already pays as it would without a bound.
+  bounded.l2_bound = 0.5 * (1 + mean);
+  EXPECT_EQ(Flatten(chart, bounded).l2_stretch, most);
+}
+
 TEST(Flatten, TubeWithTwoLoopsOpensAsARing) {
   const ChartMesh chart = Tube(24, 8, false, [](double angle, int ring) -> Eigen::RowVector3d {
     const double r = 1 + 0.1 * ring;

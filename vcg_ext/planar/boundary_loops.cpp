@@ -2,51 +2,82 @@
 #include "planar/boundary_loops.h"
 
 #include <algorithm>
-#include <cstdint>
+#include <utility>
 
 namespace dcharts {
 namespace {
 
 std::size_t At(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
-struct HalfEdge {
-  int from = 0, to = 0;
-  std::uint64_t Key() const { return Key(from, to); }
-  std::uint64_t Reverse() const { return Key(to, from); }
-  static std::uint64_t Key(int a, int b) {
-    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32) | static_cast<std::uint32_t>(b);
+// The directed edges of the triangles, by the vertex they leave.
+class DirectedEdges {
+ public:
+  DirectedEdges(const Triangles& triangles, int vertex_count)
+      : start_(At(vertex_count) + 1, 0), to_(At(3 * triangles.rows())) {
+    for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+      for (int k = 0; k < 3; ++k) ++start_[At(triangles(t, k)) + 1];
+    }
+    for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];
+    std::vector<int> end(start_.begin(), start_.end() - 1);
+    for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+      for (int k = 0; k < 3; ++k) {
+        to_[At(end[At(triangles(t, k))]++)] = triangles(t, (k + 1) % 3);
+      }
+    }
   }
+
+  int VertexCount() const { return static_cast<int>(start_.size()) - 1; }
+
+  bool Contain(int from, int to) const {
+    const auto begin = to_.begin() + start_[At(from)], end = to_.begin() + start_[At(from) + 1];
+    return std::find(begin, end, to) != end;
+  }
+
+  bool HaveDuplicates() const {
+    std::vector<int> last_from(start_.size(), -1);
+    for (int v = 0; v < VertexCount(); ++v) {
+      for (int i = start_[At(v)]; i < start_[At(v) + 1]; ++i) {
+        int& from = last_from[At(to_[At(i)])];
+        if (from == v) return true;
+        from = v;
+      }
+    }
+    return false;
+  }
+
+  // The one boundary edge that leaves each vertex, -1 for interior vertices; `count` receives how many leave.
+  std::vector<int> BoundarySuccessors(std::vector<int>& count) const {
+    std::vector<int> next(At(VertexCount()), -1);
+    count.assign(At(VertexCount()), 0);
+    for (int v = 0; v < VertexCount(); ++v) {
+      for (int i = start_[At(v)]; i < start_[At(v) + 1]; ++i) {
+        if (Contain(to_[At(i)], v)) continue;
+        next[At(v)] = to_[At(i)];
+        ++count[At(v)];
+      }
+    }
+    return next;
+  }
+
+ private:
+  std::vector<int> start_;  // of each vertex in to_, and the end
+  std::vector<int> to_;
 };
 
-std::vector<HalfEdge> HalfEdges(const Triangles& triangles) {
-  std::vector<HalfEdge> edges;
-  edges.reserve(3 * At(triangles.rows()));
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    for (int k = 0; k < 3; ++k) edges.push_back({triangles(t, k), triangles(t, (k + 1) % 3)});
+std::vector<std::vector<int>> LoopsOf(std::vector<int> next) {
+  std::vector<std::vector<int>> loops;
+  for (int v = 0; v < static_cast<int>(next.size()); ++v) {
+    if (next[At(v)] < 0) continue;
+    std::vector<int> loop;
+    for (int at = v; next[At(at)] >= 0;) {
+      loop.push_back(at);
+      const int after = next[At(at)];
+      next[At(at)] = -1;
+      at = after;
+    }
+    loops.push_back(std::move(loop));
   }
-  return edges;
-}
-
-std::vector<std::uint64_t> SortedKeys(const std::vector<HalfEdge>& edges) {
-  std::vector<std::uint64_t> keys;
-  keys.reserve(edges.size());
-  for (const HalfEdge& edge : edges) keys.push_back(edge.Key());
-  std::sort(keys.begin(), keys.end());
-  return keys;
-}
-
-// The one boundary edge that leaves each vertex, -1 for interior vertices; `count` receives how many leave.
-std::vector<int> BoundarySuccessors(const Triangles& triangles, int vertex_count, std::vector<int>& count) {
-  const std::vector<HalfEdge> edges = HalfEdges(triangles);
-  const std::vector<std::uint64_t> keys = SortedKeys(edges);
-  std::vector<int> next(At(vertex_count), -1);
-  count.assign(At(vertex_count), 0);
-  for (const HalfEdge& edge : edges) {
-    if (std::binary_search(keys.begin(), keys.end(), edge.Reverse())) continue;
-    next[At(edge.from)] = edge.to;
-    ++count[At(edge.from)];
-  }
-  return next;
+  return loops;
 }
 
 int Find(std::vector<int>& parent, int v) {
@@ -60,22 +91,8 @@ int Find(std::vector<int>& parent, int v) {
 }  // namespace
 
 std::vector<std::vector<int>> BoundaryLoops(const Triangles& triangles) {
-  const int vertex_count = triangles.maxCoeff() + 1;
   std::vector<int> count;
-  std::vector<int> next = BoundarySuccessors(triangles, vertex_count, count);
-  std::vector<std::vector<int>> loops;
-  for (int v = 0; v < vertex_count; ++v) {
-    if (next[At(v)] < 0) continue;
-    std::vector<int> loop;
-    for (int at = v; next[At(at)] >= 0;) {
-      loop.push_back(at);
-      const int after = next[At(at)];
-      next[At(at)] = -1;
-      at = after;
-    }
-    loops.push_back(std::move(loop));
-  }
-  return loops;
+  return LoopsOf(DirectedEdges(triangles, triangles.maxCoeff() + 1).BoundarySuccessors(count));
 }
 
 std::string WhyNotAChart(const ChartMesh& chart) {
@@ -99,13 +116,12 @@ std::string WhyNotAChart(const ChartMesh& chart) {
   for (Eigen::Index v = 1; v < vertex_count; ++v) {
     if (Find(parent, static_cast<int>(v)) != Find(parent, 0)) return "The chart isn't connected.";
   }
-  const std::vector<HalfEdge> edges = HalfEdges(triangles);
-  const std::vector<std::uint64_t> keys = SortedKeys(edges);
-  if (std::adjacent_find(keys.begin(), keys.end()) != keys.end()) {
+  const DirectedEdges edges(triangles, static_cast<int>(vertex_count));
+  if (edges.HaveDuplicates()) {
     return "An edge of the chart has more than two triangles, or two that are turned against each other.";
   }
   std::vector<int> count;
-  const std::vector<int> next = BoundarySuccessors(triangles, static_cast<int>(vertex_count), count);
+  const std::vector<int> next = edges.BoundarySuccessors(count);
   Eigen::Index boundary_edges = 0;
   for (const int leaving : count) {
     if (leaving > 1) return "Two boundary loops of the chart touch in a vertex.";
@@ -114,11 +130,10 @@ std::string WhyNotAChart(const ChartMesh& chart) {
   if (boundary_edges == 0) return "The chart is closed: it has to be cut open before it can be flattened.";
   // Each edge with two triangles was counted twice.
   const Eigen::Index edge_count = (3 * triangles.rows() + boundary_edges) / 2;
-  const Eigen::Index loops = static_cast<Eigen::Index>(BoundaryLoops(triangles).size());
+  const Eigen::Index loops = static_cast<Eigen::Index>(LoopsOf(next).size());
   if (vertex_count - edge_count + triangles.rows() != 2 - loops) {
     return "The chart has a handle or a vertex where it only touches itself: it has to be cut before it can "
-           "be "
-           "flattened.";
+           "be flattened.";
   }
   return {};
 }

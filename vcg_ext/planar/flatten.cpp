@@ -11,6 +11,7 @@
 #include "planar/distortion.h"
 #include "planar/flatten_start.h"
 #include "planar/flatten_start_tutte.h"
+#include "planar/linf_finish.h"
 #include "planar/normalized_chart.h"
 #include "planar/plane_points.h"
 #include "planar/rest_shapes.h"
@@ -42,51 +43,6 @@ double MinimizeSymmetricDirichlet(const Triangles& triangles, const RestShapes& 
   }
   if (energy < kNearlyFlat) return energy;
   return Descend(dirichlet, {StepKind::kProjectedNewton, 60, 1e-2}, triangles, shapes, system, poll, uv);
-}
-
-double WorstContraction(const Triangles& triangles, const RestShapes& shapes, const PlanePoints& uv) {
-  double worst = 0;
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    const RestShape& shape = shapes[static_cast<std::size_t>(t)];
-    if (shape.sliver) continue;
-    const Complex z0 = uv[static_cast<std::size_t>(triangles(t, 0))];
-    const Complex e1 = uv[static_cast<std::size_t>(triangles(t, 1))] - z0;
-    const Complex e2 = uv[static_cast<std::size_t>(triangles(t, 2))] - z0;
-    worst = std::max(worst, TriangleContraction(shape, e1, e2));
-  }
-  return worst;
-}
-
-// Steps on Sander's energy with a heavy tail. Of the maps on the way, the one with the lowest worst stretch
-// is kept whose mean stretch is still about that of `uv`; when there is none, `uv` stays.
-void LowerWorstStretch(const ChartMesh& chart, RestShapes& shapes, VertexBlockSystem& system,
-                       const Poll& poll, PlanePoints& uv) {
-  constexpr int kSteps = 10;
-  constexpr int kPatience = 3;               // steps without a gain
-  constexpr double kDearestMean = 1.05;      // L2 - 1 may grow by a twentieth for it
-  constexpr double kReferenceOfWorst = 0.9;  // the tail begins just below the worst triangle
-  constexpr double kGain = 3e-3;             // of Linf - 1
-  constexpr double kNothingToLower = 1e-7;   // Linf - 1
-  RelaxSlivers(chart.triangles, uv, shapes);
-  StretchFigures figures = MeasureStretch(chart, ToPoints(uv, 1.0));
-  const double dearest = kDearestMean * (figures.L2() - 1);
-  double worst = figures.Linf();
-  PlanePoints trial = uv;
-  int steps_without_gain = 0;
-  for (int step = 0; step < kSteps && steps_without_gain < kPatience; ++step) {
-    if (!(worst - 1 > kNothingToLower)) return;
-    const StretchEnergy tail{Kind::kSanderTail,
-                             kReferenceOfWorst * WorstContraction(chart.triangles, shapes, trial)};
-    if (!(tail.reference > 0)) return;
-    Descend(tail, {StepKind::kProjectedNewton, 1, 0, 2}, chart.triangles, shapes, system, poll, trial);
-    figures = MeasureStretch(chart, ToPoints(trial, 1.0));
-    ++steps_without_gain;
-    if (figures.L2() - 1 <= dearest && figures.Linf() < worst) {
-      if (figures.Linf() - 1 < (1 - kGain) * (worst - 1)) steps_without_gain = 0;
-      uv = trial;
-      worst = figures.Linf();
-    }
-  }
 }
 
 // Moves triangles that would flip when texture coordinates are rounded to float32 apart, as far as that goes.
@@ -192,7 +148,7 @@ Flattening Flatten(const ChartMesh& chart, const FlattenOptions& options, const 
   }
   RelaxSlivers(triangles, uv, shapes);
   Descend({Kind::kSander}, {StepKind::kProjectedNewton, 15, 1e-3}, triangles, shapes, system, poll, uv);
-  if (options.linf_finish) LowerWorstStretch(normalized.mesh, shapes, system, poll, uv);
+  if (options.linf_finish) LowerWorstStretch(normalized.mesh, options.l2_bound, shapes, system, poll, uv);
   MakeSafeForFloat32(triangles, shapes, system, poll, uv);
 
   Flattening result = Finished(normalized, uv);

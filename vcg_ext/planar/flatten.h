@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 
 #include "common/params.h"
@@ -12,6 +13,8 @@ namespace dcharts {
 struct FlattenOptions {
   FlattenMethod method = FlattenMethod::kStretchMinimizing;
   bool linf_finish = true;  ///< lower the worst stretch after the mean stretch; not of conformal maps
+  /// Lowering the worst stretch doesn't lift the L2 stretch of a chart that is within this above it; >= 1.
+  double l2_bound = std::numeric_limits<double>::infinity();
 };
 
 struct Flattening {

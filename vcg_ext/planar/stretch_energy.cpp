@@ -30,24 +30,29 @@ LinearMap MapOf(const RestShape& shape, const Complex& e1, const Complex& e2) {
 
 double Square(double x) { return x * x; }
 
+double Power(double x, int exponent) {
+  double power = 1;
+  for (; exponent > 0; exponent /= 2, x *= x) {
+    if (exponent % 2 == 1) power *= x;
+  }
+  return power;
+}
+
 // The tail of kSanderTail and its derivatives by x. A power of the energy above its minimum, not of the
 // energy itself: so it tells bad from good in nearly isometric charts as well.
-constexpr double kTailExponent = 6;
-constexpr double kTailWeight = 10;
+constexpr double kTailWeight = 5;
 
-double Tail(double x, double reference) {
-  const double ratio = x / reference, cube = ratio * ratio * ratio;
-  return kTailWeight / kTailExponent * reference * cube * cube;
+double Tail(const StretchEnergy& energy, double x) {
+  return kTailWeight / energy.exponent * energy.reference * Power(x / energy.reference, energy.exponent);
 }
 
-double TailFirst(double x, double reference) {
-  const double ratio = x / reference, square = ratio * ratio;
-  return kTailWeight * square * square * ratio;
+double TailFirst(const StretchEnergy& energy, double x) {
+  return kTailWeight * Power(x / energy.reference, energy.exponent - 1);
 }
 
-double TailSecond(double x, double reference) {
-  const double ratio = x / reference, square = ratio * ratio;
-  return kTailWeight * (kTailExponent - 1) * square * square / reference;
+double TailSecond(const StretchEnergy& energy, double x) {
+  const double slope = kTailWeight * (energy.exponent - 1);
+  return slope * Power(x / energy.reference, energy.exponent - 2) / energy.reference;
 }
 
 // Both energies as sums of squares: no digits are lost near the isometry.
@@ -103,7 +108,7 @@ ValueDerivatives DerivativesOf(const StretchEnergy& energy, bool sliver, double 
     x.flip += price;
   }
   const double value = Contraction(s1, s2);
-  const double first = TailFirst(value, energy.reference), second = TailSecond(value, energy.reference);
+  const double first = TailFirst(energy, value), second = TailSecond(energy, value);
   ValueDerivatives w;
   w.d1 = v.d1 + first * x.d1;
   w.d2 = v.d2 + first * x.d2;
@@ -116,6 +121,7 @@ ValueDerivatives DerivativesOf(const StretchEnergy& energy, bool sliver, double 
 
 // Sets the negative eigenvalues of ((a, b), (b, c)) to zero.
 void ClampNegative(double& a, double& b, double& c) {
+  if (a >= 0 && c >= 0 && a * c >= b * b) return;
   const double middle = 0.5 * (a + c), radius = std::hypot(0.5 * (a - c), b);
   if (middle - radius >= 0) return;
   const double large = middle + radius;
@@ -152,7 +158,7 @@ double TriangleEnergy(const StretchEnergy& energy, const RestShape& shape, const
   } else {
     value = Sander(s1, s2);
     if (energy.kind == StretchEnergy::Kind::kSanderTail && !shape.sliver) {
-      value += Tail(Contraction(s1, s2), energy.reference);
+      value += Tail(energy, Contraction(s1, s2));
     }
   }
   return std::isfinite(value) ? value : infinity;

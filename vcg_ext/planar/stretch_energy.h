@@ -13,11 +13,12 @@ struct StretchEnergy {
     kSymmetricDirichlet,  ///< (s1^2 + s2^2 + s1^-2 + s2^-2) / 4 - 1
     kSander,              ///< (s1^-2 + s2^-2) / 4 + s1 s2 / 2 - 1: least where the L2 stretch of
                           ///< [SSGH01] is, with the scale left free
-    kSanderTail           ///< kSander + 10 / 6 reference (x / reference)^6 where x is TriangleContraction:
-                          ///< also lowers the worst stretch; plain kSander in slivers, which would
-                          ///< otherwise govern it
+    kSanderTail           ///< kSander + 5 / n reference (x / reference)^n where x is TriangleContraction and
+                          ///< n the exponent: also lowers the worst stretch; plain kSander in slivers,
+                          ///< which would otherwise govern it
   };
   Kind kind = Kind::kSymmetricDirichlet;
+  int exponent = 6;      ///< of kSanderTail: the higher, the more it is about the worst triangles; >= 2
   double reference = 1;  ///< of kSanderTail: about the largest contraction in the map, > 0
 };
 

@@ -35,10 +35,11 @@ struct TrialFlattening {
 };
 
 /// A quick stretch-minimizing flattening that tells how well a chart would lie flat, for merges and darts: a
-/// start from angles and a few Newton steps on the L2 stretch, without the finish of Flatten(), at less than
-/// half of its time. On 97 charts of 100 its L2 - 1 is at most a tenth above Flatten()'s, and it is never
-/// much below (Flatten() gives up to a twentieth of L2 - 1 for a lower Linf). `poll` is called now and then
-/// and may throw. Safe to call from several threads; the result depends on nothing but the arguments.
+/// start from angles and a few Newton steps on the L2 stretch, without the finish of Flatten(), in a quarter
+/// of its time. On 97 charts of 100 its L2 - 1 is at most a tenth above the least that can be reached, which
+/// is also what Flatten() reaches but for what it pays for a lower Linf, see FlattenOptions::l2_bound. `poll`
+/// is called now and then and may throw. Safe to call from several threads; the result depends on nothing but
+/// the arguments.
 TrialFlattening TrialFlatten(const ChartMesh& chart, const TrialOptions& options = {},
                              const std::function<void()>& poll = {});
 
