@@ -75,17 +75,65 @@ std::vector<ParamSpec> MakeParams() {
        "gives "
        "every hole charts of its own.",
        &Params::small_hole_percent, 0, 100},
+      // --- the finished atlas
+      {"target_charts", "Number of charts",
+       "Number of charts in the finished atlas, reached exactly where the mesh allows it. Fewer charts have "
+       "shorter seams and more stretch. 0 makes as few as the largest stretch allows.",
+       &Params::target_charts, 0},
+      {"max_stretch", "Largest stretch of a chart",
+       "Bound on the L2 stretch of every chart of the finished atlas, without unit; 1 is no stretch. A chart "
+       "above it gets darts, then is split. Larger values give fewer charts. The number of charts asked for "
+       "goes before it. 0 sets no bound.",
+       &Params::max_stretch, 0, 1000},
+      // --- straightening
+      {"straighten_by",
+       "Straighten by",
+       "How borders between charts are straightened. Graph Cut finds, near each border, the one that fits "
+       "both charts best and is short, and keeps to creases. Shortest Path takes the shortest way over "
+       "faces that fit both sides, as the paper does, and a minimal cut for borders that are closed circles.",
+       &Params::straighten_by,
+       0,
+       1,
+       false,
+       {"Graph Cut", "Shortest Path"}},
       // --- merging
+      {"merge_by",
+       "Merge by",
+       "What tells whether two neighbouring charts are joined. Trial Flattening lays both flat together and "
+       "takes first the pair that adds the least stretch for the seam it saves. Boundary Region looks at how "
+       "well the faces along their border fit a cylinder, as the paper does.",
+       &Params::merge_by,
+       0,
+       1,
+       false,
+       {"Trial Flattening", "Boundary Region"}},
+      {"seam_weight", "Weight of short seams",
+       "Of Trial Flattening: how much a shorter seam counts against more stretch, without unit. Larger "
+       "values "
+       "give shorter seams and more stretch; 0 looks at stretch alone.",
+       &Params::seam_weight, 0, 1000},
       {"merge_threshold", "Merge threshold (eta)",
-       "Two neighbouring charts are joined when the region along their border fits a cylinder with a mean "
+       "Of Boundary Region: two neighbouring charts are joined when the region along their border fits a "
+       "cylinder with a mean "
        "fitting error below this, without unit. Larger values give fewer charts with more stretch; 0.00001 "
        "keeps "
        "mechanical parts "
        "strictly developable; 0 joins none.",
        &Params::merge_threshold, 0, 4},
       // --- cuts
+      {"dart_by",
+       "Darts by",
+       "What tells where a dart, a cut that ends inside a chart, is made. Measured Stretch lays the chart "
+       "flat and cuts from its border to where the stretch is worst, where that helps. Fitting Error cuts to "
+       "the regions that fit the chart's cone badly, as the paper does.",
+       &Params::dart_by,
+       0,
+       1,
+       false,
+       {"Measured Stretch", "Fitting Error"}},
       {"dart_fitting_error", "Fitting error that gets a dart",
-       "A dart, a cut that ends inside the chart, is made from the border to each region whose fitting error "
+       "Of Fitting Error: a dart, a cut that ends inside the chart, is made from the border to each region "
+       "whose fitting error "
        "is above "
        "this, without unit. Larger values give fewer darts and more stretch; 0 aims at every face that does "
        "not fit "
@@ -168,8 +216,8 @@ std::vector<FilterSpec> MakeFilters() {
        "colour.",
        "Section 3.1", charts, coloring,
        Pick({"chart_count", "max_fitting_error", "fitting_weight", "compactness_weight",
-             "straightness_weight", "max_iterations", "reassigned_percent", "seed_candidates",
-             "seed_percent"})},
+             "straightness_weight", "max_iterations", "reassigned_percent", "seed_candidates", "seed_percent",
+             "target_charts", "max_stretch"})},
       {FilterId::kFill, "D-Charts: Fill", "dcharts_fill",
        "Gives every face that is in no chart to one: small holes are grown over by the charts around them, "
        "large ones "
@@ -180,17 +228,14 @@ std::vector<FilterSpec> MakeFilters() {
        Pick({"max_fitting_error", "fitting_weight", "compactness_weight", "straightness_weight",
              "small_hole_percent"})},
       {FilterId::kStraighten, "D-Charts: Straighten", "dcharts_straighten",
-       "Straightens the borders between charts where faces fit both sides: shortest paths between the points "
-       "where "
-       "charts meet, and minimal cuts for borders that are closed circles. Reads charts from the face "
-       "quality. Writes "
-       "face quality and face colour.",
-       "Section 3.3", charts, coloring, Pick({"max_fitting_error"})},
+       "Straightens the borders between charts where faces fit both sides. No chart is added or lost. Reads "
+       "charts from the face quality. Writes face quality and face colour.",
+       "Section 3.3", charts, coloring, Pick({"straighten_by", "max_fitting_error"})},
       {FilterId::kMerge, "D-Charts: Merge", "dcharts_merge",
-       "Joins neighbouring charts that can be laid flat together: those whose faces along the common border "
-       "fit one "
-       "cylinder. Reads charts from the face quality. Writes face quality and face colour.",
-       "Section 3.3", charts, coloring, Pick({"merge_threshold"})},
+       "Joins neighbouring charts that can be laid flat together. Reads charts from the face quality. Writes "
+       "face quality and face colour.",
+       "Section 3.3", charts, coloring,
+       Pick({"target_charts", "max_stretch", "merge_by", "seam_weight", "merge_threshold"})},
       {FilterId::kCut, "D-Charts: Cut", "dcharts_cut",
        "Cuts charts so that they can lie flat: handles and closed surfaces are opened, and darts run from "
        "the border to "
@@ -200,7 +245,8 @@ std::vector<FilterSpec> MakeFilters() {
        "D-Charts: "
        "Parameterize is the next step. Vertices and faces stay as they are.",
        "Section 3.3", atlas, texture,
-       Pick({"dart_fitting_error", "max_dart_percent", "cut_to_disk", "seam_layer"})},
+       Pick({"target_charts", "max_stretch", "dart_by", "dart_fitting_error", "max_dart_percent",
+             "cut_to_disk", "seam_layer"})},
       {FilterId::kParameterize, "D-Charts: Parameterize", "dcharts_parameterize",
        "Flattens each chart with as little stretch or change of angles as possible and without flipped "
        "faces, cuts away what "
@@ -212,7 +258,8 @@ std::vector<FilterSpec> MakeFilters() {
        "coordinates per wedge, texture index 0, and charts again where one had to be split. The texture "
        "itself is up to "
        "other filters.",
-       "Sections 2, 4 and 5", atlas, texture, Pick({"method", "texture_size", "padding", "rotate"})},
+       "Sections 2, 4 and 5", atlas, texture,
+       Pick({"target_charts", "max_stretch", "method", "texture_size", "padding", "rotate"})},
       {FilterId::kTextureAtlas, "D-Charts: Texture Atlas", "dcharts_texture_atlas",
        "Makes a texture atlas: segments the surface into nearly developable charts, fills, straightens, "
        "merges and cuts "

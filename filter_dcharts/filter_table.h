@@ -15,7 +15,9 @@ namespace dcharts {
 /// One public parameter: where it lives in Params (its default is what a default-constructed Params holds),
 /// its range and what a user is told about it.
 struct ParamSpec {
-  using Field = std::variant<int Params::*, double Params::*, bool Params::*, FlattenMethod Params::*>;
+  using Field =
+      std::variant<int Params::*, double Params::*, bool Params::*, StraightenMethod Params::*,
+                   MergeMethod Params::*, DartMethod Params::*, FlattenMethod Params::*, DensityBy Params::*>;
 
   const char* name;   ///< public name, snake_case, equal to the name of the field
   const char* label;  ///< shown beside the input in a dialog

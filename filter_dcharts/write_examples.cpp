@@ -23,7 +23,12 @@ Params PaperParams() {
   params.reassigned_percent = 5;
   params.seed_candidates = 10;
   params.seed_percent = 0;
+  params.target_charts = 0;
+  params.max_stretch = 0;
+  params.straighten_by = StraightenMethod::kShortestPath;
+  params.merge_by = MergeMethod::kBoundaryRegion;
   params.merge_threshold = 0.01;
+  params.dart_by = DartMethod::kFittingError;
   params.method = FlattenMethod::kStretchMinimizing;
   return params;
 }

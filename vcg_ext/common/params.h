@@ -15,6 +15,24 @@ enum class StraightenMethod {
   kShortestPath  ///< as in the paper
 };
 
+/// What tells whether two charts may be merged.
+enum class MergeMethod {
+  kTrialFlattening,  ///< the stretch of both together
+  kBoundaryRegion    ///< how well the faces along their border fit a cylinder, as in the paper
+};
+
+/// What tells where a chart needs a dart.
+enum class DartMethod {
+  kMeasuredStretch,  ///< the worst stretch of the flattened chart
+  kFittingError      ///< how badly faces fit the chart's proxy, as in the paper
+};
+
+/// What the texel density of a chart follows.
+enum class DensityBy {
+  kUniform,       ///< nothing: it is the same for all charts
+  kVertexQuality  ///< the mean quality of its vertices
+};
+
 /// Every parameter of the pipeline, with its default (written here and nowhere else), unit and range.
 /// A name means the same in every stage. Section numbers are those of D-Charts (Julius, Kraevoy, Sheffer
 /// 2005).
@@ -34,14 +52,21 @@ struct Params {
   double small_hole_percent =
       1.0;  ///< holes up to this share of the surface area are grown over, percent, 0..100
 
+  // --- the finished atlas: a stage uses what concerns it
+  int target_charts = 0;      ///< number of charts in the finished atlas, >= 0; 0 = as many as it takes
+  double max_stretch = 1.01;  ///< bound on the L2 stretch of every chart at its own scale, >= 1, or 0: none
+
   // --- straightening (3.3)
   StraightenMethod straighten_by = StraightenMethod::kGraphCut;
 
   // --- merging (3.3)
+  MergeMethod merge_by = MergeMethod::kTrialFlattening;
+  double seam_weight = 1;  ///< of seam length against stretch where merges are chosen, 0..1000
   double merge_threshold =
       0.01;  ///< eta, bound on the boundary region's mean fitting error to a cylinder, 0..4
 
   // --- cuts (3.3)
+  DartMethod dart_by = DartMethod::kMeasuredStretch;
   double dart_fitting_error = 0.2;  ///< darts run to regions whose fitting error (Eq. 1) is above this, 0..4
   double max_dart_percent =
       100.0;  ///< longest dart, percent of its chart's bounding box diagonal, 0..1000; 0 = no darts

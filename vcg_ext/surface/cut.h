@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "common/parallel.h"
 #include "common/params.h"
 #include "common/progress.h"
 #include "planar/cone_proxy.h"
 #include "surface/chart_patch.h"
 #include "surface/charts.h"
 #include "surface/darts.h"
+#include "surface/known_flattenings.h"
 #include "surface/open_chart.h"
 #include "surface/patch_paths.h"
 #include "surface/seams.h"
+#include "surface/split_chart.h"
+#include "surface/stretch_darts.h"
 
 namespace dcharts {
 
@@ -22,14 +29,17 @@ class ChartCutter {
   ChartCutter(const SurfaceGraph<MeshType>& surface, const Params& params, Progress& progress)
       : surface_(surface), params_(params), progress_(progress) {}
 
-  /// All cuts: handles, loops, darts. `seams` is set anew. Returns the number of darts.
-  int Run(ChartIds& ids, SeamMask& seams) {
+  /// All cuts: handles, loops, darts. `seams` is set anew. `ids` change where a chart falls apart along its
+  /// cuts, and where one had to be parted to keep within params.max_stretch. Returns the number of darts.
+  /// Flattenings that were made on the way are left in `known`.
+  int Run(ChartIds& ids, SeamMask& seams, KnownFlattenings& known) {
     seams = ChartBorders(surface_, ids);
     OpenHandles(ids, seams);
     progress_.Update(0.3);
     JoinLoops(ids, seams);
     progress_.Update(0.6);
-    const int darts = CutDarts(ids, seams);
+    const int darts = params_.dart_by == DartMethod::kMeasuredStretch ? CutByStretch(ids, seams, known)
+                                                                      : CutByFittingError(ids, seams);
     DropIneffectiveSeams(surface_, seams);
     return darts;
   }
@@ -79,7 +89,69 @@ class ChartCutter {
     }
   }
 
-  int CutDarts(const ChartIds& ids, SeamMask& seams) {
+  // Darts where the flattened chart is stretched; without a number of charts to keep to, a chart that is
+  // still above the bound is parted.
+  int CutByStretch(ChartIds& ids, SeamMask& seams, KnownFlattenings& known) {
+    const bool may_part = params_.max_stretch > 0 && params_.target_charts == 0;
+    const double bound =
+        params_.max_stretch > 0 ? params_.max_stretch : std::numeric_limits<double>::infinity();
+    int count = 0, above = 0;
+    std::vector<char> done(surface_.FaceCount(), 0);
+    for (bool again = true; again;) {
+      again = false;
+      std::vector<DartedChart> charts;
+      PatchExtractor<MeshType> extractor(surface_, seams);
+      for (const auto& faces : FacesOfCharts(ids))
+        if (!done[faces.front()]) charts.push_back({{}, 0, extractor.Extract(faces), {}});
+      ParallelFor(static_cast<int>(charts.size()), progress_, [&](int k, const std::function<void()>& poll) {
+        charts[k] = CutStretchDarts(charts[k].patch, GoalOf(charts[k].patch, bound), poll);
+      });
+      int next_id = ChartCount(ids);
+      for (DartedChart& chart : charts) {
+        const std::vector<int>& faces = chart.patch.faces;
+        for (int f : faces) done[f] = 1;
+        const bool good = chart.flat.ok && chart.flat.l2_stretch <= bound;
+        if (!good && may_part && faces.size() > 1) {
+          PartChart(extractor.Extract(faces), next_id++, ids, seams);
+          for (int f : faces) done[f] = 0;
+          again = true;
+          continue;
+        }
+        above += !good;
+        count += chart.count;
+        Mark(chart.patch, chart.edges, seams);
+        if (chart.flat.ok) known.Add(chart.patch, std::move(chart.flat));
+      }
+      if (again) {
+        SplitAndCompact(surface_, ids, &seams);
+        JoinLoops(ids, seams);
+      }
+    }
+    if (above > 0 && params_.target_charts > 0)
+      progress_.Log(std::to_string(above) +
+                    " charts exceed max_stretch: the number of charts asked for goes before it.");
+    return count;
+  }
+
+  DartGoal GoalOf(const ChartPatch& patch, double bound) const {
+    constexpr double kWorstStretch = 1.3;
+    const Eigen::RowVector3d size =
+        patch.mesh.positions.colwise().maxCoeff() - patch.mesh.positions.colwise().minCoeff();
+    return {bound, kWorstStretch, params_.max_dart_percent / 100 * size.norm(),
+            std::sqrt(surface_.TotalArea())};
+  }
+
+  void PartChart(const ChartPatch& patch, int new_id, ChartIds& ids, SeamMask& seams) const {
+    const std::vector<int> side = Bisect(patch);
+    for (size_t k = 0; k < side.size(); ++k)
+      if (side[k] == 1) ids[patch.faces[k]] = new_id;
+    for (int h = 0; h < patch.HalfEdgeCount(); ++h) {
+      const int o = patch.opposite[h];
+      if (o >= 0 && side[h / 3] != side[o / 3]) SetSeam(seams, patch.SurfaceHalfEdge(h));
+    }
+  }
+
+  int CutByFittingError(const ChartIds& ids, SeamMask& seams) {
     int count = 0;
     ForEachChart(ids, seams, [&](const ChartPatch& patch) {
       NormalMoments moments;

@@ -19,6 +19,7 @@
 #include "surface/chart_patch.h"
 #include "surface/charts.h"
 #include "surface/cut.h"
+#include "surface/known_flattenings.h"
 #include "surface/merge.h"
 #include "surface/rounding.h"
 #include "surface/seams.h"
@@ -31,8 +32,10 @@ namespace dcharts {
 template <class MeshType>
 class Parameterizer {
  public:
-  Parameterizer(const SurfaceGraph<MeshType>& surface, const Params& params, Progress& progress)
-      : surface_(surface), params_(params), progress_(progress), wedge_(surface.FaceCount()) {}
+  /// `known`: flattenings that Cut has made.
+  Parameterizer(const SurfaceGraph<MeshType>& surface, const Params& params, const KnownFlattenings& known,
+                Progress& progress)
+      : surface_(surface), params_(params), known_(known), progress_(progress), wedge_(surface.FaceCount()) {}
 
   /// `seams` must agree with `ids`. Both change where a chart had to be cut or split. Returns finished
   /// texcoords.
@@ -124,7 +127,9 @@ class Parameterizer {
   void LayFlat(Piece& piece, FlattenMethod method, const std::function<void()>& poll) const {
     FlattenOptions options;
     options.method = method;
-    Flattening flat = Flatten(piece.patch.mesh, options, poll);
+    const Flattening* known =
+        method == FlattenMethod::kStretchMinimizing ? known_.Find(piece.patch) : nullptr;
+    Flattening flat = known ? *known : Flatten(piece.patch.mesh, options, poll);
     piece.flat = flat.ok;
     piece.why = std::move(flat.why);
     piece.note = std::move(flat.note);
@@ -359,6 +364,7 @@ class Parameterizer {
 
   const SurfaceGraph<MeshType>& surface_;
   const Params& params_;
+  const KnownFlattenings& known_;
   Progress& progress_;
   bool all_disks_ = false;
   std::vector<std::array<double, 6>>

@@ -12,6 +12,7 @@
 #include "surface/merge.h"
 #include "surface/parameterize.h"
 #include "surface/straighten.h"
+#include "surface/trial_merge.h"
 #include "surface/workspace.h"
 
 namespace dcharts {
@@ -22,6 +23,7 @@ template class HoleFiller<SurfaceMesh>;
 template class GraphCutStraightener<SurfaceMesh>;
 template class ShortestPathStraightener<SurfaceMesh>;
 template class Merger<SurfaceMesh>;
+template class TrialMerger<SurfaceMesh>;
 template class ChartCutter<SurfaceMesh>;
 template class Parameterizer<SurfaceMesh>;
 
@@ -59,12 +61,20 @@ SurfaceChange ChartsWritten(const Workspace& work, const ChartIds& ids, SurfaceC
   return change;
 }
 
-void FinishAtlas(const Workspace& work, ChartIds& ids, SeamMask& seams, const Params& params,
-                 Progress& progress, double from, SurfaceChange& change) {
+void MergeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, Progress& progress,
+                 ChartIds& ids) {
+  if (params.merge_by == MergeMethod::kTrialFlattening)
+    TrialMerger<SurfaceMesh>(surface, params, progress).Run(ids);
+  else
+    Merger<SurfaceMesh>(surface, params, progress).Run(ids);
+}
+
+void FinishAtlas(const Workspace& work, ChartIds& ids, SeamMask& seams, const KnownFlattenings& known,
+                 const Params& params, Progress& progress, double from, SurfaceChange& change) {
   WedgeTexcoords uv;
   {
     Stage stage("parameterize", "Flattening charts...", from, 0.97, progress, change.report);
-    uv = Parameterizer<SurfaceMesh>(work.Surface(), params, progress).Run(ids, seams);
+    uv = Parameterizer<SurfaceMesh>(work.Surface(), params, known, progress).Run(ids, seams);
     DropIneffectiveSeams(work.Surface(), seams);
   }
   Stage stage("measure", "Measuring...", 0.97, 1, progress, change.report);
@@ -117,7 +127,7 @@ SurfaceChange Merge(const SurfaceData& mesh, const Params& params, Progress& pro
   ChartIds ids = work.ReadFilledCharts(progress);
   {
     Stage stage("merge", "Merging charts...", 0.02, 1, progress, change.report);
-    Merger<SurfaceMesh>(work.Surface(), params, progress).Run(ids);
+    MergeCharts(work.Surface(), params, progress, ids);
   }
   return ChartsWritten(work, ids, std::move(change));
 }
@@ -127,9 +137,10 @@ SurfaceChange Cut(const SurfaceData& mesh, const Params& params, Progress& progr
   SurfaceChange change;
   ChartIds ids = work.ReadFilledCharts(progress);
   SeamMask seams;
+  KnownFlattenings known;
   {
     Stage stage("cut", "Cutting darts...", 0.02, 1, progress, change.report);
-    change.report.darts = ChartCutter<SurfaceMesh>(work.Surface(), params, progress).Run(ids, seams);
+    change.report.darts = ChartCutter<SurfaceMesh>(work.Surface(), params, progress).Run(ids, seams, known);
   }
   work.WriteCharts(ids, change);
   work.WriteSeams(seams, change);
@@ -144,13 +155,14 @@ SurfaceChange Parameterize(const SurfaceData& mesh, const Params& params, Progre
   SurfaceChange change;
   ChartIds ids = work.ReadFilledCharts(progress);
   SeamMask seams;
+  KnownFlattenings known;
   if (!work.ReadSeams(ids, seams)) {
     progress.Log("No seams that fit the charts: cut as D-Charts: Cut does by default.");
     Stage stage("cut", "Cutting darts...", 0.02, 0.1, progress, change.report);
     const Params defaults;
-    change.report.darts = ChartCutter<SurfaceMesh>(work.Surface(), defaults, progress).Run(ids, seams);
+    change.report.darts = ChartCutter<SurfaceMesh>(work.Surface(), defaults, progress).Run(ids, seams, known);
   }
-  FinishAtlas(work, ids, seams, params, progress, 0.1, change);
+  FinishAtlas(work, ids, seams, known, params, progress, 0.1, change);
   return change;
 }
 
@@ -160,6 +172,7 @@ SurfaceChange TextureAtlas(const SurfaceData& mesh, const Params& params, Progre
   SurfaceChange change;
   ChartIds ids;
   SeamMask seams;
+  KnownFlattenings known;
   {
     Stage stage("segment", "Growing charts...", 0, 0.3, progress, change.report);
     Segmentation result = Lloyd<SurfaceMesh>(surface, params, progress).Run();
@@ -176,13 +189,13 @@ SurfaceChange TextureAtlas(const SurfaceData& mesh, const Params& params, Progre
   }
   {
     Stage stage("merge", "Merging charts...", 0.42, 0.45, progress, change.report);
-    Merger<SurfaceMesh>(surface, params, progress).Run(ids);
+    MergeCharts(surface, params, progress, ids);
   }
   {
     Stage stage("cut", "Cutting darts...", 0.45, 0.5, progress, change.report);
-    change.report.darts = ChartCutter<SurfaceMesh>(surface, params, progress).Run(ids, seams);
+    change.report.darts = ChartCutter<SurfaceMesh>(surface, params, progress).Run(ids, seams, known);
   }
-  FinishAtlas(work, ids, seams, params, progress, 0.5, change);
+  FinishAtlas(work, ids, seams, known, params, progress, 0.5, change);
   if (params.seam_layer) work.WriteSeamLines(seams, change);
   return change;
 }

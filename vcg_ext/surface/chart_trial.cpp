@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/chart_trial.h"
+
+#include "planar/overlap.h"
+#include "planar/trial_flatten.h"
+#include "surface/open_chart.h"
+
+namespace dcharts {
+
+ChartTrial TryChart(const ChartPatch& patch, double bound, const std::function<void()>& poll) {
+  ChartTrial trial;
+  ChartPatch open = patch;
+  for (const bool handles : {true, false}) {
+    const std::vector<int> cuts = handles ? CutsThatOpenHandles(open) : CutsThatJoinLoops(open, false);
+    if (cuts.empty()) continue;
+    for (int h : cuts) trial.cut_length += open.Length(h);
+    open = CutOpen(open, cuts);
+  }
+  TrialOptions options;
+  options.l2_bound = bound;
+  const TrialFlattening flat = TrialFlatten(open.mesh, options, poll);
+  trial.stretch = flat.l2_stretch;
+  trial.flat = flat.ok && OverlappingPairs(OnGrid(flat.uv, open.mesh.triangles), 1).empty();
+  return trial;
+}
+
+}  // namespace dcharts

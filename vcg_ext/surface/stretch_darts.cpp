@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/stretch_darts.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "planar/distortion.h"
+#include "planar/overlap.h"
+#include "surface/patch_paths.h"
+
+namespace dcharts {
+namespace {
+
+// Area-weighted mean of the worst stretch of the faces around each vertex.
+std::vector<double> VertexStretch(const ChartPatch& patch, const Points2& uv) {
+  std::vector<double> sum(patch.VertexCount(), 0), weight(patch.VertexCount(), 0);
+  for (int f = 0; f < static_cast<int>(patch.faces.size()); ++f) {
+    Eigen::Matrix3d corners;
+    Eigen::Matrix<double, 3, 2> flat;
+    for (int i = 0; i < 3; ++i) {
+      corners.row(i) = patch.mesh.positions.row(patch.mesh.triangles(f, i));
+      flat.row(i) = uv.row(patch.mesh.triangles(f, i));
+    }
+    const TriangleStretch stretch = StretchOfTriangle(corners, flat);
+    for (int i = 0; i < 3; ++i) {
+      sum[patch.mesh.triangles(f, i)] += stretch.surface_area * stretch.largest;
+      weight[patch.mesh.triangles(f, i)] += stretch.surface_area;
+    }
+  }
+  for (int v = 0; v < patch.VertexCount(); ++v) sum[v] = weight[v] > 0 ? sum[v] / weight[v] : 0;
+  return sum;
+}
+
+bool Reached(const Flattening& flat, const DartGoal& goal) {
+  return flat.l2_stretch <= goal.l2_stretch && flat.linf_stretch <= goal.linf_stretch;
+}
+
+// A dart is worth its length when the worst stretch falls by as much as this for each unit of it, or, where
+// the mean stretch is too high, when that falls by a fair share.
+bool Helps(const Flattening& before, const Flattening& after, double length, const DartGoal& goal) {
+  constexpr double kLinfPerUnit = 1.5;
+  constexpr double kShareOfL2 = 0.1;
+  if (!after.ok) return false;
+  if (before.l2_stretch > goal.l2_stretch)
+    return after.l2_stretch - 1 < (1 - kShareOfL2) * (before.l2_stretch - 1);
+  if (after.l2_stretch > goal.l2_stretch) return false;
+  return before.linf_stretch - std::max(after.linf_stretch, goal.linf_stretch) >
+         kLinfPerUnit * length / goal.unit;
+}
+
+}  // namespace
+
+DartedChart CutStretchDarts(const ChartPatch& patch, const DartGoal& goal,
+                            const std::function<void()>& poll) {
+  constexpr int kMostDarts = 12, kMostFailures = 3;
+  DartedChart chart;
+  chart.patch = patch;
+  chart.flat = Flatten(patch.mesh, {}, poll);
+  if (!chart.flat.ok) return chart;
+  std::vector<char> hopeless(patch.faces.size(), 0);  // darts to these faces were of no use
+  for (int failures = 0;
+       chart.count < kMostDarts && failures < kMostFailures && !Reached(chart.flat, goal);) {
+    const ChartPatch& open = chart.patch;
+    const std::vector<double> stretch = VertexStretch(open, chart.flat.uv);
+    PatchPaths paths(open);
+    std::vector<int> border;
+    for (int v = 0; v < open.VertexCount(); ++v)
+      if (paths.OnBoundary(v)) border.push_back(v);
+    paths.Run(border, true);
+    int tip = -1;
+    for (int h = 0; h < open.HalfEdgeCount(); ++h) {
+      const int v = open.Vertex(h);
+      if (hopeless[h / 3] || paths.OnBoundary(v) || !(paths.Distance(v) <= goal.longest)) continue;
+      if (tip < 0 || stretch[v] > stretch[tip]) tip = v;
+    }
+    if (tip < 0) break;
+    const double length = paths.Distance(tip);
+    const std::vector<int> cut = paths.Path(tip);
+    ChartPatch trial = CutOpen(open, cut);
+    Flattening flat = Flatten(trial.mesh, {}, poll);
+    if (Helps(chart.flat, flat, length, goal) &&
+        OverlappingPairs(OnGrid(flat.uv, trial.mesh.triangles), 1).empty()) {
+      chart.edges.insert(chart.edges.end(), cut.begin(), cut.end());
+      ++chart.count;
+      chart.patch = std::move(trial);
+      chart.flat = std::move(flat);
+      continue;
+    }
+    ++failures;
+    PatchPaths around(open);
+    around.Run({tip}, false);
+    for (int h = 0; h < open.HalfEdgeCount(); ++h)
+      if (around.Distance(open.Vertex(h)) <= length) hopeless[h / 3] = 1;
+  }
+  return chart;
+}
+
+}  // namespace dcharts
