@@ -209,12 +209,12 @@ class Coarsener {
   // The cheapest move of u that is allowed, and what it costs.
   double BestCollapse(int u, Spoke& best) {
     mesh_.Spokes(u, spokes_);
-    mesh_.Outgoing(u, ring_);
+    ShapesAround(u);
     double least = kNever;
     for (const Spoke& e : spokes_) {
       const double bound = Bound(u, e.vertex);
       if (bound >= least || !lines_.MayCollapse(u, e) || !ChartsKeepEnough(e.half_edge)) continue;
-      const double cost = bound * ShapeFactor(u, e.vertex);
+      const double cost = bound * ShapeFactor(e.vertex);
       if (cost >= least || !mesh_.MayCollapse(u, e) || TooManySpokes(e.vertex)) continue;
       least = cost;
       best = e;
@@ -236,23 +236,33 @@ class Coarsener {
     return before + static_cast<int>(ring_.size()) - 4 > std::max(kMostSpokes, before);
   }
 
-  // 1 when all the moved faces are equilateral, infinite when one is turned over or becomes a sliver.
-  double ShapeFactor(int u, int v) const {
-    const Vector3d &from = positions_[u], &to = positions_[v];
-    double worst_before = 1, worst = 1, least_cosine = 1;
+  // The faces around u as they are.
+  void ShapesAround(int u) {
+    mesh_.Outgoing(u, ring_);
+    ring_shapes_.clear();
+    worst_around_ = 1;
     for (int h : ring_) {
-      const int b = mesh_.Vertex(Next(h)), c = mesh_.Vertex(Previous(h));
-      const Shape before = ShapeOf(from, positions_[b], positions_[c]);
-      worst_before = std::min(worst_before, before.quality);
+      ring_shapes_.push_back(
+          ShapeOf(positions_[u], positions_[mesh_.Vertex(Next(h))], positions_[mesh_.Vertex(Previous(h))]));
+      worst_around_ = std::min(worst_around_, ring_shapes_.back().quality);
+    }
+  }
+
+  // 1 when all the faces that would move are equilateral, infinite when one is turned over or becomes a
+  // sliver.
+  double ShapeFactor(int v) const {
+    double worst = 1;
+    for (size_t k = 0; k < ring_.size(); ++k) {
+      const int b = mesh_.Vertex(Next(ring_[k])), c = mesh_.Vertex(Previous(ring_[k]));
       if (b == v || c == v) continue;
-      const Shape after = ShapeOf(to, positions_[b], positions_[c]);
+      const Shape& before = ring_shapes_[k];
+      const Shape after = ShapeOf(positions_[v], positions_[b], positions_[c]);
       worst = std::min(worst, after.quality);
       if (before.quality < kNoArea) continue;
-      least_cosine = std::min(least_cosine,
-                              before.normal.dot(after.normal) / (before.normal.norm() * after.normal.norm()));
+      const double cosine = before.normal.dot(after.normal) / (before.normal.norm() * after.normal.norm());
+      if (!(cosine > kLeastCosine)) return kNever;  // not a number when the face loses its area
     }
-    if (worst < kLeastQuality && worst < worst_before) return kNever;
-    if (!(least_cosine > kLeastCosine)) return kNever;  // not a number beside a face without area
+    if (worst < kLeastQuality && worst < worst_around_) return kNever;
     return 1 + kShapeWeight * (1 / std::max(worst, kNoArea) - 1);
   }
 
@@ -288,6 +298,8 @@ class Coarsener {
   std::vector<double> key_;
   std::vector<Spoke> spokes_;
   std::vector<int> ring_, ring_v_;
+  std::vector<Shape> ring_shapes_;  // per face of ring_
+  double worst_around_ = 1;         // quality of these
 };
 
 }  // namespace
