@@ -2,6 +2,7 @@
 #include "planar/min_cut.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -90,6 +91,41 @@ TEST(MinCut, EdgesWithoutCapacityAreFree) {
 TEST(MinCut, CapacitiesOfVeryDifferentSize) {
   const std::vector<FlowEdge> edges = {{0, 1, 1e-9}, {1, 2, 1e-10}, {2, 3, 1e6}};
   EXPECT_EQ(MinCut(4, edges, {0}, {3}), (std::vector<bool>{true, true, false, false}));
+}
+
+TEST(MinCut, PullsAgreeWithBruteForceOnRandomGraphs) {
+  std::mt19937 random(12);
+  for (int trial = 0; trial < 300; ++trial) {
+    const int n = 1 + static_cast<int>(random() % 9);
+    std::vector<double> pull;
+    for (int k = 0; k < n; ++k) pull.push_back(static_cast<double>(random() % 17) - 8);
+    std::vector<FlowEdge> edges;
+    for (unsigned e = random() % 18; e > 0; --e) {
+      const int a = static_cast<int>(random() % static_cast<unsigned>(n));
+      const int b = static_cast<int>(random() % static_cast<unsigned>(n));
+      if (a != b) edges.push_back({a, b, static_cast<double>(random() % 6)});
+    }
+    auto price = [&](const std::vector<bool>& side) {
+      double sum = CutValue(edges, side);
+      for (int k = 0; k < n; ++k)
+        if (side[k] != (pull[k] > 0)) sum += std::abs(pull[k]);
+      return sum;
+    };
+    double best = 1e300;
+    long fewest = 0;
+    for (unsigned mask = 0; mask < 1u << n; ++mask) {
+      std::vector<bool> side(n);
+      for (int k = 0; k < n; ++k) side[k] = mask >> k & 1;
+      const long count = std::count(side.begin(), side.end(), true);
+      if (price(side) < best || (price(side) == best && count < fewest)) {
+        best = price(side);
+        fewest = count;
+      }
+    }
+    const std::vector<bool> side = MinCut(pull, edges);
+    EXPECT_EQ(price(side), best) << "trial " << trial;
+    EXPECT_EQ(std::count(side.begin(), side.end(), true), fewest) << "trial " << trial;
+  }
 }
 
 // A grid with cheap edges along one column: the cut follows it.

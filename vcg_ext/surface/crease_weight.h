@@ -20,13 +20,15 @@ double DihedralAngle(const SurfaceGraph<MeshType>& surface, int half_edge) {
 }
 
 /// What a unit of border length counts at each half-edge, so that borders run along creases: 1 where the
-/// surface is smooth, down to 0.1 on a crease. A crease bends more than its surroundings: on a coarse mesh
+/// surface is smooth, down to 0.25 on a crease. A crease bends more than its surroundings: on a coarse mesh
 /// every edge of a round shape bends, and none is a crease.
 template <class MeshType>
 std::vector<double> CreaseWeights(const SurfaceGraph<MeshType>& surface) {
   constexpr double kDegree = 3.14159265358979323846 / 180;
   // Vertex noise of 5 % of the edge length bends edges by about 7 degrees, seldom by 25.
-  constexpr double kSmooth = 25 * kDegree, kSharp = 45 * kDegree, kLeast = 0.1;
+  constexpr double kSmooth = 25 * kDegree, kSharp = 45 * kDegree;
+  // Cheap enough to draw borders to creases; cheaper still, they zigzag where a crease fades out.
+  constexpr double kLeast = 0.25;
   std::vector<double> angle(surface.HalfEdgeCount()), weight(surface.HalfEdgeCount(), 1);
   for (int h = 0; h < surface.HalfEdgeCount(); ++h) angle[h] = DihedralAngle(surface, h);
   // Of a face that has two creases, one of the other two edges is still flat.

@@ -122,6 +122,7 @@ class GraphCutStraightener {
   }
 
   Outcome StraightenPair(int a, int b, double band, ChartIds& ids) {
+    if (charts_[a].area < charts_[b].area) std::swap(a, b);
     if (!CollectBand(a, b, band, ids)) return Outcome::kDone;
     PriceBand(a, b, ids);
     side_ = MinCut(pull_, edges_);
@@ -206,15 +207,15 @@ class GraphCutStraightener {
       if (!reaches_out[side]) FixDeepest(side == 0);
   }
 
-  // A chart that is all in the band keeps at least the face farthest from the border.
+  // A chart that is all in the band keeps at least the face farthest from the border, of several the one that
+  // fits it best.
   void FixDeepest(bool of_a) {
+    auto rank = [&](int k) {
+      return std::tuple(distance_[band_[k]], of_a ? pull_[k] : -pull_[k], -band_[k]);
+    };
     int deepest = -1;
-    for (int k = 0; k < static_cast<int>(band_.size()); ++k) {
-      if (was_a_[k] != of_a) continue;
-      if (deepest < 0 || distance_[band_[k]] > distance_[band_[deepest]] ||
-          (distance_[band_[k]] == distance_[band_[deepest]] && band_[k] < band_[deepest]))
-        deepest = k;
-    }
+    for (int k = 0; k < static_cast<int>(band_.size()); ++k)
+      if (was_a_[k] == of_a && (deepest < 0 || rank(k) > rank(deepest))) deepest = k;
     if (deepest < 0) return;
     constexpr double kProhibitive = 1e14;  // no cut costs as much
     pull_[deepest] = of_a ? kProhibitive : -kProhibitive;
@@ -256,20 +257,29 @@ class GraphCutStraightener {
     return members_;
   }
 
-  // Changes that hang together stand or fall together, others on their own.
+  // Changes that hang together stand or fall together, others on their own, the best first.
   Outcome ApplyCut(int a, int b, ChartIds& ids) {
-    Outcome outcome = Outcome::kDone;
-    std::vector<int> applied;
-    double gain = 0;
+    struct Group {
+      double gain;
+      std::vector<int> nodes;
+    };
+    std::vector<Group> groups;
     component_.assign(band_.size(), -1);
     for (int start = 0; start < static_cast<int>(band_.size()); ++start) {
       if (component_[start] >= 0 || side_[start] == was_a_[start]) continue;
-      const auto& group = Flood(start, [&](int k) { return side_[k] != was_a_[k]; });
-      const double group_gain = GainOf(group, ids);
-      if (group_gain <= 0) continue;
-      if (ApplyGroup(group, a, b, ids)) {
-        applied.insert(applied.end(), group.begin(), group.end());
-        gain += group_gain;
+      const auto& nodes = Flood(start, [&](int k) { return side_[k] != was_a_[k]; });
+      const double gain = GainOf(nodes, ids);
+      if (gain > 0) groups.push_back({gain, nodes});
+    }
+    std::stable_sort(groups.begin(), groups.end(),
+                     [](const Group& x, const Group& y) { return x.gain > y.gain; });
+    Outcome outcome = Outcome::kDone;
+    std::vector<int> applied;
+    double gain = 0;
+    for (const Group& group : groups) {
+      if (ApplyGroup(group.nodes, a, b, ids)) {
+        applied.insert(applied.end(), group.nodes.begin(), group.nodes.end());
+        gain += group.gain;
       } else {
         outcome = Outcome::kRefused;
       }

@@ -33,7 +33,7 @@ double BorderLength(const TestSurface& surface, const ChartIds& ids) {
 int Column(const std::array<double, 3>& p, int n) { return static_cast<int>(p[0] * n); }
 int Row(const std::array<double, 3>& p, int n) { return static_cast<int>(p[1] * n); }
 
-TEST(Straighten, RaggedBorderOnAPlaneBecomesTheLine) {
+TEST(StraightenShortestPath, RaggedBorderOnAPlaneBecomesTheLine) {
   const int n = 20;
   const TestSurface surface(shapes::Grid(n, n));
   // Teeth of one or two quads on both sides of the middle, none at the ends.
@@ -48,13 +48,13 @@ TEST(Straighten, RaggedBorderOnAPlaneBecomesTheLine) {
   EXPECT_EQ(straight, surface.Paint([&](const auto& p) { return p[0] < 0.5 ? 0 : 1; }));
 }
 
-TEST(Straighten, StraightBorderStays) {
+TEST(StraightenShortestPath, StraightBorderStays) {
   const TestSurface surface(shapes::Grid(12, 12));
   const ChartIds ids = surface.Paint([](const auto& p) { return p[0] < 0.5 ? 0 : 1; });
   EXPECT_EQ(Straightened(surface, ids), ids);
 }
 
-TEST(Straighten, RaggedCircleAroundACylinderBecomesARing) {
+TEST(StraightenShortestPath, RaggedCircleAroundACylinderBecomesARing) {
   // The border has no end points: min-cut.
   const int n = 24, m = 16;
   const double pi = 3.14159265358979323846;
@@ -80,7 +80,7 @@ TEST(Straighten, RaggedCircleAroundACylinderBecomesARing) {
   EXPECT_TRUE(test::ChartsAreWhole(*surface, straight));
 }
 
-TEST(Straighten, NoChartVanishesOrFallsApartAndNoBorderGrows) {
+TEST(StraightenShortestPath, NoChartVanishesOrFallsApartAndNoBorderGrows) {
   std::mt19937 random(14);
   for (const SurfaceData& mesh :
        {shapes::Grid(14, 14), shapes::Sphere(7), shapes::Torus(14), shapes::OpenCylinder(24), shapes::Cube(6),
@@ -118,7 +118,7 @@ TEST(Straighten, NoChartVanishesOrFallsApartAndNoBorderGrows) {
   }
 }
 
-TEST(Straighten, ShortensSegmentedModels) {
+TEST(StraightenShortestPath, ShortensSegmentedModels) {
   const TestSurface surface(shapes::Plush(32));
   Params params;
   params.chart_count = 12;
@@ -129,7 +129,7 @@ TEST(Straighten, ShortensSegmentedModels) {
 }
 
 // "Without increasing the fitting error": a crease between two planes is where the border stays.
-TEST(Straighten, BorderStaysOnACrease) {
+TEST(StraightenShortestPath, BorderStaysOnACrease) {
   SurfaceData mesh = shapes::Grid(16, 16);
   // The planes left and right of x = 1/2 meet at a right angle.
   for (auto& p : mesh.vertices)
@@ -139,7 +139,7 @@ TEST(Straighten, BorderStaysOnACrease) {
   EXPECT_EQ(Straightened(surface, ids), ids);
 }
 
-TEST(Straighten, ChartWithinAChart) {
+TEST(StraightenShortestPath, ChartWithinAChart) {
   const TestSurface surface(shapes::Grid(20, 20));
   const ChartIds ids = surface.Paint([](const auto& p) {
     const double angle = std::atan2(p[1] - 0.5, p[0] - 0.5);
@@ -152,7 +152,7 @@ TEST(Straighten, ChartWithinAChart) {
   EXPECT_GT(surface.AreaOf(straight, 1), 0.2 * surface.AreaOf(ids, 1));
 }
 
-TEST(Straighten, OneChart) {
+TEST(StraightenShortestPath, OneChart) {
   const TestSurface surface(shapes::Sphere(4));
   EXPECT_EQ(Straightened(surface, ChartIds(surface->FaceCount(), 0)), ChartIds(surface->FaceCount(), 0));
 }
