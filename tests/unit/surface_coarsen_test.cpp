@@ -291,6 +291,23 @@ TEST(Coarsen, FacesWithoutAreaDoNoHarm) {
   }
 }
 
+TEST(Coarsen, NoFaceTurnsOverBesideCoincidingVertices) {
+  // All faces look up, or have no area where rows of vertices coincide.
+  SurfaceData mesh = shapes::Grid(24, 24);
+  for (auto& p : mesh.vertices)
+    if (p[0] > 0.4 && p[0] < 0.6) p[0] = 0.5;
+  const TestSurface surface(mesh);
+  const ChartIds ids = Octants(surface);
+  const Coarsened result(*surface, ids, 100);
+  ExpectSound(*surface, ids, result);
+  EXPECT_NEAR(result.graph.TotalArea(), surface->TotalArea(), 1e-12);
+  for (int f = 0; f < result.graph.FaceCount(); ++f) {
+    if (result.graph.Area(f) > 0) {
+      EXPECT_GT(result.graph.Normal(f).z(), 0.99);
+    }
+  }
+}
+
 TEST(Coarsen, AnyTangleOfFacesKeepsItsTopology) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     std::mt19937 random(seed);

@@ -214,7 +214,9 @@ class Coarsener {
     for (const Spoke& e : spokes_) {
       const double bound = Bound(u, e.vertex);
       if (bound >= least || !lines_.MayCollapse(u, e) || !ChartsKeepEnough(e.half_edge)) continue;
-      const double cost = bound * ShapeFactor(e.vertex);
+      const double factor = ShapeFactor(e.vertex);
+      if (!(factor < kNever)) continue;
+      const double cost = bound * factor;
       if (cost >= least || !mesh_.MayCollapse(u, e) || TooManySpokes(e.vertex)) continue;
       least = cost;
       best = e;
