@@ -195,6 +195,69 @@ def shape_cases():
     yield "hemisphere", grid_chart(187, cap(np.pi / 2))
 
 
+def split_in_four(vertices, faces):
+    edges, which = np.unique(np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0, return_inverse=True)
+    middle = which.reshape(-1, 3) + len(vertices)
+    a, b, c = faces.T
+    ab, bc, ca = middle.T
+    four = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+    return (np.vstack([vertices, vertices[edges].mean(axis=1)]),
+            np.vstack([np.column_stack(corners) for corners in four]).astype(np.int32))
+
+
+def cut_once(vertices, faces):
+    """A chart out of a whole surface without handles: opened along one path between two vertices far from each other,
+    or, when it has holes, from the largest of them to the vertex farthest away."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import dijkstra
+
+    edges = np.unique(np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
+    lengths = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
+    graph = coo_matrix((lengths, (edges[:, 0], edges[:, 1])), shape=(len(vertices),) * 2).tocsr()
+    sides = np.vstack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.int64)
+    closed = np.isin(sides[:, 1] * len(vertices) + sides[:, 0], sides[:, 0] * len(vertices) + sides[:, 1]).all()
+    if closed:
+        start = [int(np.argmax(dijkstra(graph, directed=False, indices=0)))]
+    else:
+        start = longest_loop(vertices, faces)[0]
+    distance, before, _ = dijkstra(graph, directed=False, indices=start, min_only=True, return_predecessors=True)
+    path = [int(np.argmax(distance))]
+    while before[path[-1]] >= 0:
+        path.append(int(before[path[-1]]))
+
+    # Fans of triangles that hang together around a vertex of the path without crossing it get a vertex each.
+    crossed = {frozenset(step) for step in zip(path, path[1:])}
+    of_vertex = {v: [] for v in path}
+    for t, face in enumerate(faces.tolist()):
+        for v in face:
+            if v in of_vertex:
+                of_vertex[v].append(t)
+    points, opened = [vertices], faces.copy()
+    count = len(vertices)
+    for v in path:
+        fans = {t: t for t in of_vertex[v]}
+
+        def root(t):
+            while fans[t] != t:
+                t = fans[t]
+            return t
+
+        across = {}
+        for t in of_vertex[v]:
+            for w in faces[t].tolist():
+                if w != v and frozenset((v, w)) not in crossed:
+                    fans[root(t)] = root(across.setdefault(w, t))
+        for number, fan in enumerate(sorted({root(t) for t in fans})):
+            if number == 0:
+                continue
+            for t in of_vertex[v]:
+                if root(t) == fan:
+                    opened[t][faces[t] == v] = count
+            points.append(vertices[v : v + 1])
+            count += 1
+    return np.vstack(points), opened
+
+
 class Bounds:
     def __init__(self):
         self.missed = []
@@ -291,6 +354,9 @@ def main():
             for model in ONE_CHART_MODELS:
                 charts = charts_of(options.models / f"{model}.ply", 1, options.tool, folder)
                 cases += [(f"{model} from one seed", chart) for chart in charts]
+            horse = igl.read_triangle_mesh(str(options.models / "horse.ply"))[:2]
+            cases.append(("horse in four, one cut", cut_once(*split_in_four(*horse))))
+            cases.append(("bunny, one cut", cut_once(*igl.read_triangle_mesh(str(options.models / "bunny.ply"))[:2])))
         for (case, chart), ours in zip(cases, flatten(options.tool, folder, [chart for _, chart in cases])):
             compare(case, chart, ours, bounds, not options.no_slim)
             if len(chart[1]) > 60000:

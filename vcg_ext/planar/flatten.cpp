@@ -29,7 +29,8 @@ constexpr double kNewtonWorks = 3;    // above it Newton steps crawl and reweigh
 constexpr double kHopeless = 1e3;     // still above it afterwards: the chart has to be cut
 constexpr int kReweightedBlock = 3;   // steps
 constexpr int kMaxBlocks = 40;
-constexpr double kBlockGain = 0.05;  // share of the energy; a block that gains less is the last
+constexpr double kFarFromFlat = 0.3;  // above it few steps follow: such a chart will be cut or split
+constexpr double kBlockGain = 0.05;   // share of the energy; a block that gains less is the last
 
 // Reweighted steps while the map is bad, then Newton's. Returns the energy reached.
 double MinimizeSymmetricDirichlet(const Triangles& triangles, const RestShapes& shapes, double energy,
@@ -147,7 +148,8 @@ Flattening Flatten(const ChartMesh& chart, const FlattenOptions& options, const 
     return Failure("The chart can't be flattened without extreme stretch: it has to be cut.");
   }
   RelaxSlivers(triangles, uv, shapes);
-  Descend({Kind::kSander}, {StepKind::kProjectedNewton, 15, 1e-3}, triangles, shapes, system, poll, uv);
+  const int steps = energy > kFarFromFlat ? 7 : 15;
+  Descend({Kind::kSander}, {StepKind::kProjectedNewton, steps, 1e-3}, triangles, shapes, system, poll, uv);
   if (options.linf_finish) LowerWorstStretch(normalized.mesh, options.l2_bound, shapes, system, poll, uv);
   MakeSafeForFloat32(triangles, shapes, system, poll, uv);
 

@@ -17,8 +17,10 @@ namespace {
 using Kind = StretchEnergy::Kind;
 
 constexpr int kSteps = 14;
-constexpr int kPatience = 4;     // steps without a gain
-constexpr int kSmoothSteps = 5;  // with the lower exponent, which moves more triangles at a time
+constexpr int kStepsFarFromFlat = 4;  // for charts that will be cut or split
+constexpr double kFarFromFlat = 0.1;  // L2 - 1
+constexpr int kPatience = 4;          // steps without a gain
+constexpr int kSmoothSteps = 5;       // with the lower exponent, which moves more triangles at a time
 constexpr int kSmoothExponent = 6;
 constexpr int kSharpExponent = 12;
 constexpr double kReferenceOfWorst = 0.85;  // the tail begins below the worst triangle
@@ -57,9 +59,10 @@ void LowerWorstStretch(const ChartMesh& chart, double l2_bound, RestShapes& shap
   const double least_mean = figures.L2() - 1;
   const double bound = figures.L2() <= l2_bound ? l2_bound - 1 : std::numeric_limits<double>::infinity();
   double worst = figures.Linf();
+  const int steps = least_mean > kFarFromFlat ? kStepsFarFromFlat : kSteps;
   PlanePoints map = uv;  // goes on where it is, also when it isn't kept
   int steps_without_gain = 0;
-  for (int step = 0; step < kSteps && steps_without_gain < kPatience; ++step) {
+  for (int step = 0; step < steps && steps_without_gain < kPatience; ++step) {
     if (!(worst - 1 > kNothingToLower)) return;
     StretchEnergy tail{Kind::kSanderTail};
     tail.reference = kReferenceOfWorst * WorstContraction(chart.triangles, shapes, map);
