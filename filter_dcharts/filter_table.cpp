@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <type_traits>
 
 namespace dcharts {
 
@@ -31,7 +32,8 @@ std::vector<ParamSpec> MakeParams() {
        "two "
        "cosines, without unit. 0.2 is about 56 degrees for a plane and 26 for a cylinder. Larger values give "
        "fewer "
-       "charts with more stretch.",
+       "charts with more stretch. Straightening by Shortest Path keeps to it too; Graph Cut does not need "
+       "it.",
        &Params::max_fitting_error, 0, 4, true},
       {"fitting_weight", "Weight of fitting (alpha)",
        "Exponent of the fitting error in the cost of adding a face to a chart, without unit. Larger values "
@@ -310,6 +312,20 @@ const FilterSpec& GetFilter(FilterId id) {
 
 double ValueOf(const ParamSpec& spec, const Params& params) {
   return std::visit([&](auto field) { return static_cast<double>(params.*field); }, spec.field);
+}
+
+void SetValue(const ParamSpec& spec, double value, Params& params) {
+  std::visit(
+      [&](auto field) {
+        using Value = std::decay_t<decltype(params.*field)>;
+        if constexpr (std::is_enum_v<Value>)
+          params.*field = static_cast<Value>(static_cast<int>(value));
+        else if constexpr (std::is_same_v<Value, bool>)
+          params.*field = value != 0;
+        else
+          params.*field = static_cast<Value>(value);
+      },
+      spec.field);
 }
 
 std::string ChoiceText(const ParamSpec& spec, const Params& params) {

@@ -71,6 +71,8 @@ const FilterSpec& GetFilter(FilterId id);
 
 /// A parameter's value as a double (a bool is 0 or 1, an enum the index of the choice).
 double ValueOf(const ParamSpec& spec, const Params& params);
+/// Sets it from such a number.
+void SetValue(const ParamSpec& spec, double value, Params& params);
 
 /// The choice of an enum parameter as a user reads it.
 std::string ChoiceText(const ParamSpec& spec, const Params& params);

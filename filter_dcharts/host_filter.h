@@ -45,8 +45,8 @@ Params ReadParams(const FilterSpec& filter, const List& list) {
       params.** count = list.getInt(name);
     else if (const auto* number = std::get_if<double Params::*>(&spec->field))
       params.** number = FromHostFloat(static_cast<float>(list.getFloat(name)));
-    else if (const auto* method = std::get_if<FlattenMethod Params::*>(&spec->field))
-      params.** method = static_cast<FlattenMethod>(list.getEnum(name));
+    else if (IsEnum(*spec))
+      SetValue(*spec, list.getEnum(name), params);
   }
   return params;
 }

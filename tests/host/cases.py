@@ -8,12 +8,13 @@ import pathlib
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 _SEGMENT = ('chart_count', 'max_fitting_error', 'fitting_weight', 'compactness_weight', 'straightness_weight',
-            'max_iterations', 'reassigned_percent', 'seed_candidates', 'seed_percent')
+            'max_iterations', 'reassigned_percent', 'seed_candidates', 'seed_percent', 'target_charts', 'max_stretch')
 _FILL = ('max_fitting_error', 'fitting_weight', 'compactness_weight', 'straightness_weight', 'small_hole_percent')
-_STRAIGHTEN = ('max_fitting_error',)
-_MERGE = ('merge_threshold',)
-_CUT = ('dart_fitting_error', 'max_dart_percent', 'cut_to_disk', 'seam_layer')
-_PARAMETERIZE = ('method', 'texture_size', 'padding', 'rotate')
+_STRAIGHTEN = ('straighten_by', 'max_fitting_error')
+_MERGE = ('target_charts', 'max_stretch', 'merge_by', 'seam_weight', 'merge_threshold', 'cut_to_disk')
+_CUT = ('target_charts', 'max_stretch', 'dart_by', 'dart_fitting_error', 'max_dart_percent', 'cut_to_disk',
+        'seam_layer')
+_PARAMETERIZE = ('target_charts', 'max_stretch', 'method', 'texture_size', 'padding', 'rotate')
 
 # display name -> (name in Python, parameters)
 FILTERS = {
@@ -42,6 +43,9 @@ OUT_OF_RANGE = {
     'seed_candidates': (0,),
     'seed_percent': (-1.0, 101.0),
     'small_hole_percent': (-1.0, 101.0),
+    'target_charts': (-1,),
+    'max_stretch': (-0.5, 1001.0),
+    'seam_weight': (-0.5, 1001.0),
     'merge_threshold': (-0.1, 4.5),
     'dart_fitting_error': (-0.1, 4.5),
     'max_dart_percent': (-1.0, 1001.0),
@@ -53,7 +57,12 @@ OUT_OF_RANGE = {
 BOOLEANS = ('cut_to_disk', 'seam_layer', 'rotate')
 
 # parameter -> its choices, the default first
-CHOICES = {'method': ('Stretch-minimizing', 'Conformal (ABF++)')}
+CHOICES = {
+    'straighten_by': ('Graph Cut', 'Shortest Path'),
+    'merge_by': ('Trial Flattening', 'Boundary Region'),
+    'dart_by': ('Measured Stretch', 'Fitting Error'),
+    'method': ('Stretch-minimizing', 'Conformal (ABF++)'),
+}
 
 _TETRAHEDRON = ('0 0 0', '1 0 0', '0 1 0', '0 0 1')
 _TETRAHEDRON_FACES = ('3 0 2 1', '3 0 1 3', '3 1 2 3', '3 0 3 2')

@@ -63,12 +63,25 @@ TEST(FilterTable, DefaultsAreInRange) {
 
 TEST(FilterTable, EnumsHaveAChoiceForEachValueInTheirRange) {
   for (const ParamSpec& spec : AllParams()) {
-    EXPECT_EQ(IsEnum(spec), std::holds_alternative<FlattenMethod Params::*>(spec.field)) << spec.name;
+    const bool is_enum = !std::holds_alternative<int Params::*>(spec.field) &&
+                         !std::holds_alternative<double Params::*>(spec.field) &&
+                         !std::holds_alternative<bool Params::*>(spec.field);
+    EXPECT_EQ(IsEnum(spec), is_enum) << spec.name;
     if (!IsEnum(spec)) continue;
     EXPECT_GE(spec.choices.size(), 2u) << spec.name;
     EXPECT_EQ(spec.min, 0) << spec.name;
     EXPECT_EQ(spec.max, static_cast<double>(spec.choices.size() - 1)) << spec.name;
     EXPECT_EQ(ChoiceText(spec, Params()), spec.choices[0]) << spec.name;
+  }
+}
+
+TEST(FilterTable, ValuesAreSetAsTheyAreRead) {
+  for (const ParamSpec& spec : AllParams()) {
+    Params params;
+    for (double value : {1.0, 0.0}) {
+      SetValue(spec, value, params);
+      EXPECT_EQ(ValueOf(spec, params), value) << spec.name;
+    }
   }
 }
 

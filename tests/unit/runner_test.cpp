@@ -45,11 +45,7 @@ double Outside(const ParamSpec& spec, bool above) {
 
 Params With(const ParamSpec& spec, double value) {
   Params params;
-  if (const auto* count = std::get_if<int Params::*>(&spec.field)) params.** count = static_cast<int>(value);
-  if (const auto* number = std::get_if<double Params::*>(&spec.field)) params.** number = value;
-  if (const auto* method = std::get_if<FlattenMethod Params::*>(&spec.field)) {
-    params.** method = static_cast<FlattenMethod>(static_cast<int>(value));
-  }
+  SetValue(spec, value, params);
   return params;
 }
 
