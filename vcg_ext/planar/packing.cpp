@@ -12,6 +12,7 @@
 
 #include "common/errors.h"
 #include "planar/packing_board.h"
+#include "planar/packing_squeeze.h"
 #include "planar/upright_box.h"
 
 namespace dcharts {
@@ -44,12 +45,13 @@ class Packer {
   Packer(const std::vector<Points2>& outlines, bool rotate, const std::function<void()>& poll)
       : outlines_(outlines), poll_(poll) {
     const int turns = !rotate                    ? 1
-                      : outlines.size() <= 200   ? 16
+                      : outlines.size() <= 200   ? 64
                       : outlines.size() <= 1000  ? 8
                       : outlines.size() <= 10000 ? 4
                                                  : 1;
     for (const Points2& outline : outlines) {
       std::vector<Turn> angles;
+      if (rotate && outlines.size() <= 200) few_ = 4;
       const double upright = rotate ? UprightAngle(outline) : 0;
       for (int k = 0; k < turns; ++k) {
         Turn turn;
@@ -89,16 +91,17 @@ class Packer {
     margin_ = margin;
     for (auto& turns : turns_) {
       if (poll_) poll_();
-      for (Turn& turn : turns) turn.cells = CoveredCells(scale * turn.outline, margin);
+      for (size_t t = 0; t < turns.size(); t += few_)
+        turns[t].cells = CoveredCells(scale * turns[t].outline, margin);
     }
   }
 
   /// Places all charts. Returns the side of the square they take, in cells; 0 when it would be `bound` or
-  /// more. Placements are in cells.
-  int Try(const PackPlan& plan, int bound, std::vector<Placement>* placements) const {
+  /// more.
+  int Try(const PackPlan& plan, int bound, std::vector<Spot>* spots) const {
     if (poll_) poll_();
     Board board(bound);
-    placements->assign(outlines_.size(), {});
+    spots->assign(outlines_.size(), {});
     int side = plan.width;
     if (side >= bound) return 0;
     // The board only fills up: where a chart found no place, the next one of about its size need not look
@@ -109,7 +112,8 @@ class Packer {
       int best_x = -1, best_y = 0;
       double best_score = std::numeric_limits<double>::infinity();
       const Turn* best_turn = nullptr;
-      for (const Turn& turn : turns_[k]) {
+      for (size_t t = 0; t < turns_[k].size(); t += few_) {
+        const Turn& turn = turns_[k][t];
         int x = 0, y = 0;
         double score = 0;
         if (plan.width > 0) {
@@ -139,14 +143,63 @@ class Packer {
       if (!best_turn) return 0;
       board.Take(best_turn->cells, best_x, best_y);
       side = std::max({side, best_x + best_turn->cells.width, best_y + best_turn->cells.Height()});
-      (*placements)[k].angle = best_turn->angle;
-      (*placements)[k].offset =
-          Eigen::Vector2d(best_x + margin_, best_y + margin_) - scale_ * best_turn->corner.transpose();
+      (*spots)[k] = {static_cast<int>(best_turn - turns_[k].data()), best_x, best_y};
     }
     return side;
   }
 
+  /// Packs more tightly than one chart after the other can: on coarser cells, then slid together on finer
+  /// ones. `side`: of the square that `spots` take. Afterwards scale and margin are those of the new cells.
+  int Tighten(int side, std::vector<Spot>* spots) {
+    const double scale = scale_, margin = margin_, coarse = static_cast<double>(kCoarse) / side;
+    std::vector<Spot> moved = *spots;
+    for (Spot& s : moved) {
+      s.x = static_cast<int>(std::lround(s.x * coarse));
+      s.y = static_cast<int>(std::lround(s.y * coarse));
+    }
+    std::vector<std::vector<RowRuns>> shapes;
+    for (const auto& turns : turns_) {
+      shapes.emplace_back();
+      for (const Turn& turn : turns)
+        shapes.back().push_back(CoveredCells(coarse * scale * turn.outline, coarse * margin));
+    }
+    const int coarse_side = Squeeze(shapes, kCoarse + kCoarse / 40, kMoves, poll_, &moved);
+    if (coarse_side == 0) return side;
+    const int fine_side = coarse_side * kFine;
+    std::vector<RowRuns> chosen;
+    for (size_t k = 0; k < turns_.size(); ++k) {
+      chosen.push_back(
+          CoveredCells(kFine * coarse * scale * turns_[k][moved[k].turn].outline, kFine * coarse * margin));
+      moved[k].x *= kFine;
+      moved[k].y *= kFine;
+    }
+    if (!Slide(chosen, fine_side, &moved)) return side;
+    int end = 0;
+    for (size_t k = 0; k < turns_.size(); ++k)
+      end = std::max({end, moved[k].x + chosen[k].width, moved[k].y + chosen[k].Height()});
+    if (end >= kFine * kCoarse) return side;
+    scale_ = kFine * coarse * scale;
+    margin_ = kFine * coarse * margin;
+    *spots = moved;
+    return end;
+  }
+
+  double Scale() const { return scale_; }
+
+  /// In cells.
+  std::vector<Placement> PlacementsOf(const std::vector<Spot>& spots) const {
+    std::vector<Placement> placements;
+    for (size_t k = 0; k < spots.size(); ++k) {
+      const Turn& turn = turns_[k][spots[k].turn];
+      placements.push_back({turn.angle, Eigen::Vector2d(spots[k].x + margin_, spots[k].y + margin_) -
+                                            scale_ * turn.corner.transpose()});
+    }
+    return placements;
+  }
+
  private:
+  static constexpr int kCoarse = 256, kFine = 4, kMoves = 3000;
+
   static std::pair<int, int> SizeClass(const RowRuns& cells) {
     constexpr double kStep = 0.15;
     return {static_cast<int>(std::log(cells.longest_run) / kStep),
@@ -166,6 +219,7 @@ class Packer {
   std::vector<std::vector<Turn>> turns_;
   std::vector<double> area_;
   double scale_ = 1, margin_ = 0;
+  size_t few_ = 1;  // when charts are placed one by one, only each few_-th turn is tried
 };
 
 }  // namespace
@@ -193,7 +247,7 @@ Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
     plans.push_back({packer.OrderBy(share), cells, 1});
     if (count <= 1000) plans.push_back({packer.OrderBy(share), cells, 0.5});
   }
-  int search_steps = count > 1 ? std::clamp(2500 / count, 0, 120) : 0;
+  int search_steps = count > 1 ? std::clamp(2500 / count, 0, 10) : 0;
 
   // What a texel is in cells is known only when all are placed: the margin is for a guessed side, which must
   // prove large enough.
@@ -208,13 +262,13 @@ Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
     packer.Rasterize(scale, (padding + kHair) / 2 * guess / options.texture_size);
     int side = 0;
     PackPlan best;
-    std::vector<Placement> placements;
+    std::vector<Spot> spots, best_spots;
     auto try_plan = [&](const PackPlan& plan) {
-      const int found = packer.Try(plan, side > 0 ? side : 2 * cells, &placements);
+      const int found = packer.Try(plan, side > 0 ? side : 2 * cells, &spots);
       if (found == 0) return;
       side = found;
       best = plan;
-      packing.placements = placements;
+      best_spots = spots;
     };
     for (const PackPlan& plan : plans) try_plan(plan);
     std::minstd_rand random;  // seeded alike for every run
@@ -241,8 +295,10 @@ Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
       try_plan(plan);
     }
     if (side > 0 && side <= guess) {
-      packing.scale = scale / side;
+      if (count > 1 && count <= 200) side = packer.Tighten(side, &best_spots);
+      packing.scale = packer.Scale() / side;
       packing.padding = padding;
+      packing.placements = packer.PlacementsOf(best_spots);
       for (Placement& p : packing.placements) p.offset /= side;
       return packing;
     }
