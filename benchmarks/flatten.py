@@ -306,11 +306,14 @@ def compare(name, chart, ours, bounds, with_slim):
     return l2, linf
 
 
-def atlas(name, models, tool, folder, bounds, with_slim):
+def atlas(name, models, tool, folder, bounds, with_slim, by_target):
     seeds, wanted, limit = ATLASES[name]
-    charts = charts_of(models / f"{name}.ply", seeds, tool, folder)
+    if by_target:
+        charts, origin = charts_of(models / f"{name}.ply", wanted, tool, folder, "target"), f"target_charts {wanted}"
+    else:
+        charts, origin = charts_of(models / f"{name}.ply", seeds, tool, folder), f"the paper's stages from {seeds} seeds"
     flat = flatten(tool, folder, charts)
-    print(f"{name}: {len(charts)} charts (reference {wanted}), from {seeds} seeds")
+    print(f"{name}: {len(charts)} charts (reference {wanted}), by {origin}")
     squares, total_area, worst = 0.0, 0.0, 0.0
     for i, (chart, ours) in enumerate(zip(charts, flat)):
         l2, linf = compare(f"{name} {i}", chart, ours, bounds, with_slim)
@@ -324,10 +327,11 @@ def atlas(name, models, tool, folder, bounds, with_slim):
     print(f"  all: L2 {np.sqrt(squares / total_area):.5f}  Linf {worst:.4f}  {seconds:.3f} s, bound {limit} s: {holds}")
 
 
-def charts_of(path, seeds, tool, folder):
+def charts_of(path, number, tool, folder, how="charts"):
+    """The charts of a model: by the paper's stages from a number of seeds, or with how="target" that many charts."""
     vertices, faces = igl.read_triangle_mesh(str(path))[:2]
     write_mesh(folder / "mesh", vertices, faces)
-    run_tool(tool, "charts", folder / "mesh", folder / "charts", seeds)
+    run_tool(tool, how, folder / "mesh", folder / "charts", number)
     return read_charts(folder / "charts")
 
 
@@ -344,8 +348,9 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         if options.models.is_dir():
-            for model in ATLASES:
-                atlas(model, options.models, options.tool, folder, bounds, not options.no_slim)
+            for by_target in (False, True):
+                for model in ATLASES:
+                    atlas(model, options.models, options.tool, folder, bounds, not options.no_slim, by_target)
         else:
             print(f"{options.models} is not there: skipped the five models and the charts made of them.")
         print("one-chart cases")

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The flattening alone, for measuring.
-//   flatten_tool charts MESH OUT CHART_COUNT   segments and cuts the one mesh in MESH and writes its charts
+//   flatten_tool charts MESH OUT CHART_COUNT   segments and cuts the one mesh in MESH as the paper does, from
+//                                              CHART_COUNT seeds, and writes its charts
+//   flatten_tool target MESH OUT CHARTS        the same with the plugin's defaults and target_charts
 //   flatten_tool flatten CHARTS OUT            flattens every chart; OUT holds for each: int32 ok, int32
 //   number of
 //                                              vertices, double cpu seconds, 2 doubles per vertex
@@ -36,10 +38,25 @@ SurfaceData SurfaceOf(const ChartMesh& mesh) {
   return data;
 }
 
-void WriteCharts(const std::string& in, const std::string& out, int chart_count) {
-  SurfaceData data = SurfaceOf(dcharts::bench::ReadCharts(in).at(0));
+// The stages of the paper, so that charts stay the same when defaults change.
+dcharts::Params AsInThePaper(int chart_count) {
   dcharts::Params params;
   params.chart_count = chart_count;
+  params.max_stretch = 0;
+  params.straighten_by = dcharts::StraightenMethod::kShortestPath;
+  params.merge_by = dcharts::MergeMethod::kBoundaryRegion;
+  params.dart_by = dcharts::DartMethod::kFittingError;
+  return params;
+}
+
+dcharts::Params Target(int charts) {
+  dcharts::Params params;
+  params.target_charts = charts;
+  return params;
+}
+
+void WriteCharts(const std::string& in, const std::string& out, const dcharts::Params& params) {
+  SurfaceData data = SurfaceOf(dcharts::bench::ReadCharts(in).at(0));
   dcharts::Progress progress;
   for (const auto stage :
        {dcharts::Segment, dcharts::Fill, dcharts::Straighten, dcharts::Merge, dcharts::Cut}) {
@@ -111,7 +128,9 @@ int main(int count, char** arguments) {
   const std::vector<std::string> words(arguments + 1, arguments + count);
   try {
     if (words.size() == 4 && words[0] == "charts") {
-      WriteCharts(words[1], words[2], std::atoi(words[3].c_str()));
+      WriteCharts(words[1], words[2], AsInThePaper(std::atoi(words[3].c_str())));
+    } else if (words.size() == 4 && words[0] == "target") {
+      WriteCharts(words[1], words[2], Target(std::atoi(words[3].c_str())));
     } else if (words.size() == 3 && words[0] == "flatten") {
       FlattenCharts(words[1], words[2], dcharts::FlattenMethod::kStretchMinimizing);
     } else if (words.size() == 3 && words[0] == "conformal") {
@@ -120,7 +139,8 @@ int main(int count, char** arguments) {
       TryCharts(words[1], std::atof(words[2].c_str()));
     } else {
       std::fputs(
-          "usage: flatten_tool charts MESH OUT CHART_COUNT | flatten CHARTS OUT | conformal CHARTS OUT | "
+          "usage: flatten_tool charts MESH OUT CHART_COUNT | target MESH OUT CHARTS | flatten CHARTS OUT | "
+          "conformal CHARTS OUT | "
           "trial CHARTS L2_BOUND\n",
           stderr);
       return 2;

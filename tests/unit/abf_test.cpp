@@ -195,14 +195,45 @@ TEST(Abf, AMapTooFineForTextureCoordinatesIsReplacedAndSaysSo) {
 }
 
 TEST(Abf, AMapThatFoldsIsReplacedAndSaysSo) {
-  // A cylinder's wall is developable, but its angles don't close to a ring in the plane.
+  // From end to end of this tube a conformal ring grows by e^19.
   const ChartMesh chart = Tube(20, 20, false, [](double angle, int ring) -> Eigen::RowVector3d {
-    return {std::cos(angle), std::sin(angle), 0.3 * ring};
+    return {std::cos(angle), std::sin(angle), ring};
   });
   const Flattening flat = Flatten(chart, Conformal());
   ExpectNoFlip(chart, flat);
   EXPECT_EQ(flat.note, "its conformal map folds, flattened with least stretch instead");
   EXPECT_EQ(flat.uv, Flatten(chart).uv);
+}
+
+TEST(Abf, AnUncutTubeBecomesARing) {
+  // The wall of a cylinder is one half of the logarithm's picture: rings of equal height in space have radii
+  // in a geometric sequence in the plane.
+  constexpr int kAround = 48, kRings = 20;
+  constexpr double kHeight = 0.125;
+  const ChartMesh chart = Tube(kAround, kRings, false, [](double angle, int ring) -> Eigen::RowVector3d {
+    return {std::cos(angle), std::sin(angle), kHeight * ring};
+  });
+  const Flattening flat = SoundConformal(chart);
+  ASSERT_TRUE(flat.ok);
+  EXPECT_LT(AngleError(chart, flat.uv), 4e-3);  // of rectangles that become trapezoids
+  std::vector<double> radius;
+  for (int ring = 0; ring < kRings; ++ring) {
+    const auto points = flat.uv.middleRows(ring * kAround, kAround);
+    radius.push_back((points.rowwise() - points.colwise().mean()).rowwise().norm().mean());
+  }
+  for (std::size_t ring = 1; ring < radius.size(); ++ring) {
+    EXPECT_NEAR(std::abs(std::log(radius[ring] / radius[ring - 1])), kHeight, 0.02 * kHeight);
+  }
+}
+
+TEST(Abf, HolesThatFanTrianglesCannotFillStayExact) {
+  // A flat sheet with a hole like a C.
+  const ChartMesh chart = GridChart(12, 12, PlanePoint, [](int i, int j) {
+    return !(i >= 3 && i <= 8 && j >= 3 && j <= 8 && (i <= 4 || j <= 4 || j >= 7));
+  });
+  const Flattening flat = SoundConformal(chart);
+  ASSERT_TRUE(flat.ok);
+  EXPECT_LT(AngleError(chart, flat.uv), 1e-12);
 }
 
 TEST(Abf, LeastStretchHasNoNote) { EXPECT_EQ(Flatten(SphereCap(10, 1.5)).note, ""); }

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <utility>
 
 #include "planar/boundary_loops.h"
 
@@ -13,6 +17,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kLargestUpdate = 0.5;    // of an angle itself, per step
 constexpr double kLeastCurvature = 0.25;  // of the objective's own; keeps the Hessian positive
 constexpr double kRegularization = 1e-10;
+constexpr double kFillVariance = 1e4;  // of triangles that fill holes, in that of the chart's own
 
 // Of the conformal map:
 constexpr double kSmallestAngle = 1e-4;  // radians; slivers have rest shapes about as thin
@@ -74,6 +79,14 @@ void CloseAroundVertices(const Triangles& triangles, const std::vector<char>& on
   }
 }
 
+std::vector<double> EdgeLengths(const Points3& positions, const std::vector<int>& loop) {
+  std::vector<double> lengths(loop.size());
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    lengths[i] = (positions.row(loop[(i + 1) % loop.size()]) - positions.row(loop[i])).norm();
+  }
+  return lengths;
+}
+
 // Two vertices far from each other: the one farthest from vertex 0, and the one farthest from that.
 std::array<Eigen::Index, 2> FarVertices(const Points3& positions) {
   std::array<Eigen::Index, 2> far = {0, 0};
@@ -97,11 +110,11 @@ bool HasNoFlip(const Triangles& triangles, const PlanePoints& uv) {
 }  // namespace
 
 AngleFlattening::AngleFlattening(const ChartMesh& chart, const RestShapes& shapes, double smallest_angle,
-                                 int relative)
-    : chart_(chart), smallest_angle_(smallest_angle), relative_(relative) {
-  const std::size_t vertex_count = At(chart.positions.rows());
-  on_boundary_.assign(vertex_count, 0);
-  for (const std::vector<int>& loop : BoundaryLoops(chart.triangles)) {
+                                 int relative, bool fill_holes)
+    : chart_(chart), triangles_(chart.triangles), smallest_angle_(smallest_angle), relative_(relative) {
+  on_boundary_.assign(At(chart.positions.rows()), 0);
+  const std::vector<std::vector<int>> loops = BoundaryLoops(chart.triangles);
+  for (const std::vector<int>& loop : loops) {
     for (const int v : loop) on_boundary_[At(v)] = 1;
   }
   angles_.reserve(shapes.size());
@@ -111,7 +124,46 @@ AngleFlattening::AngleFlattening(const ChartMesh& chart, const RestShapes& shape
   }
   wanted_ = angles_;
   CloseAroundVertices(chart.triangles, on_boundary_, wanted_);
-  multiplier_.assign(vertex_count, Complex(0, 0));
+  if (fill_holes) FillHoles(loops);
+  multiplier_.assign(on_boundary_.size(), Complex(0, 0));
+}
+
+void AngleFlattening::FillHoles(const std::vector<std::vector<int>>& loops) {
+  std::vector<std::vector<double>> lengths;
+  std::size_t outer = 0;
+  Eigen::Index fans = 0;
+  double longest = -1;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    lengths.push_back(EdgeLengths(chart_.positions, loops[i]));
+    const double length = std::accumulate(lengths[i].begin(), lengths[i].end(), 0.0);
+    if (length > longest) longest = length, outer = i;
+    fans += static_cast<Eigen::Index>(loops[i].size());
+  }
+  Eigen::Index t = triangles_.rows();
+  triangles_.conservativeResize(t + fans - static_cast<Eigen::Index>(loops[outer].size()), 3);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (i == outer) continue;
+    const int middle = static_cast<int>(on_boundary_.size());
+    on_boundary_.push_back(0);
+    const double around = std::accumulate(lengths[i].begin(), lengths[i].end(), 0.0);
+    for (std::size_t k = 0; k < loops[i].size(); ++k) {
+      const int v = loops[i][k], next = loops[i][(k + 1) % loops[i].size()];
+      on_boundary_[At(v)] = 0;
+      triangles_.row(t++) << next, v, middle;
+      // of a circle
+      const double tip = around > 0 ? 2 * kPi * lengths[i][k] / around : 2 * kPi / At(loops[i].size());
+      angles_.push_back({0.5 * (kPi - tip), 0.5 * (kPi - tip), tip});
+      Normalize(smallest_angle_, angles_.back());
+      wanted_.push_back(angles_.back());
+    }
+  }
+}
+
+// Of an angle, as it were: what its change counts is one over it.
+double AngleFlattening::Variance(Eigen::Index triangle, int corner) const {
+  const double wanted = wanted_[At(triangle)][At(corner)];
+  const double variance = relative_ == 2 ? wanted * wanted : wanted;
+  return triangle < chart_.triangles.rows() ? variance : kFillVariance * variance;
 }
 
 // What a change of the angle at `corner` does to the conditions of the vertex at corner k: to the sum of
@@ -127,11 +179,11 @@ Complex AngleFlattening::Row(const Corners& angle, int k, int corner) const {
 Corners AngleFlattening::Compliance(Eigen::Index triangle) const {
   Corners compliance;
   for (int i = 0; i < 3; ++i) {
-    const double variance = Variance(wanted_[At(triangle)][At(i)]);
+    const double variance = Variance(triangle, i);
     const double sine = std::sin(angles_[At(triangle)][At(i)]);
     double pull = 0;
     for (const int k : {(i + 1) % 3, (i + 2) % 3}) {
-      const std::size_t v = At(chart_.triangles(triangle, k));
+      const std::size_t v = At(triangles_(triangle, k));
       if (!on_boundary_[v]) pull += (i == (k + 1) % 3 ? 1 : -1) * multiplier_[v].imag();
     }
     const double curvature = 1 + variance / (sine * sine) * pull;
@@ -141,7 +193,6 @@ Corners AngleFlattening::Compliance(Eigen::Index triangle) const {
 }
 
 bool AngleFlattening::Step(VertexBlockSystem& system) {
-  const Triangles& triangles = chart_.triangles;
   const std::size_t vertex_count = on_boundary_.size();
   PlanePoints residual(vertex_count, Complex(0, 0));
   for (std::size_t v = 0; v < vertex_count; ++v) {
@@ -149,14 +200,13 @@ bool AngleFlattening::Step(VertexBlockSystem& system) {
   }
   std::vector<Corners> compliances(angles_.size()), changes(angles_.size());
   system.SetZero();
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+  for (Eigen::Index t = 0; t < triangles_.rows(); ++t) {
     const Corners& angle = angles_[At(t)];
     const Corners d = compliances[At(t)] = Compliance(t);
     const double rest = kPi - angle[0] - angle[1] - angle[2], sum = d[0] + d[1] + d[2];
     Corners toward;  // what the objective alone would do
     for (std::size_t i = 0; i < 3; ++i) {
-      const double wanted = wanted_[At(t)][i];
-      toward[i] = (wanted - angle[i]) / Variance(wanted);
+      toward[i] = (wanted_[At(t)][i] - angle[i]) / Variance(t, static_cast<int>(i));
     }
     toward = Project(d, toward);
     for (std::size_t i = 0; i < 3; ++i) toward[i] += d[i] / sum * rest;
@@ -168,13 +218,13 @@ bool AngleFlattening::Step(VertexBlockSystem& system) {
       projected[k] = Project(d, rows[k]);
     }
     for (int k = 0; k < 3; ++k) {
-      const std::size_t v = At(triangles(t, k));
+      const std::size_t v = At(triangles_(t, k));
       if (on_boundary_[v]) continue;
       residual[v] -= Complex(angle[At(k)], std::log(std::sin(angle[At((k + 1) % 3)])) -
                                                std::log(std::sin(angle[At((k + 2) % 3)])));
       for (std::size_t i = 0; i < 3; ++i) residual[v] -= rows[k][i] * toward[i];
       for (int l = k; l < 3; ++l) {
-        if (on_boundary_[At(triangles(t, l))]) continue;
+        if (on_boundary_[At(triangles_(t, l))]) continue;
         Block2 block;
         // The differences of rows, because the sum of their products cancels.
         for (std::size_t i = 0; i < 3; ++i) {
@@ -197,12 +247,12 @@ bool AngleFlattening::Step(VertexBlockSystem& system) {
   if (!system.Factorize()) return false;
   const PlanePoints multiplier = system.Solve(residual);
 
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+  for (Eigen::Index t = 0; t < triangles_.rows(); ++t) {
     Corners pull;
     for (int i = 0; i < 3; ++i) {
       pull[At(i)] = 0;
       for (int k = 0; k < 3; ++k) {
-        const std::size_t v = At(triangles(t, k));
+        const std::size_t v = At(triangles_(t, k));
         if (!on_boundary_[v]) pull[At(i)] += Dot(Row(angles_[At(t)], k, i), multiplier[v]);
       }
     }
@@ -245,7 +295,7 @@ std::optional<PlanePoints> AngleFlattening::LayOut(VertexBlockSystem& system) co
     }
   }
   const std::array<Eigen::Index, 2> far = FarVertices(chart_.positions);
-  PlanePoints right_hand_side(on_boundary_.size(), Complex(0, 0));
+  PlanePoints right_hand_side(At(chart_.positions.rows()), Complex(0, 0));
   const double distance = (chart_.positions.row(far[0]) - chart_.positions.row(far[1])).norm();
   system.Pin(far[0], Complex(0, 0), right_hand_side);
   system.Pin(far[1], Complex(distance > 0 ? distance : 1.0, 0), right_hand_side);
@@ -253,13 +303,20 @@ std::optional<PlanePoints> AngleFlattening::LayOut(VertexBlockSystem& system) co
   return system.Solve(right_hand_side);
 }
 
-std::optional<PlanePoints> ConformalMap(const ChartMesh& chart, const RestShapes& shapes,
-                                        VertexBlockSystem& system, const std::function<void()>& poll,
-                                        std::string& why) {
-  AngleFlattening flattening(chart, shapes, kSmallestAngle, 1);
+namespace {
+
+// Empty and a reason when there is no map without flips.
+std::optional<PlanePoints> MapByAngles(const ChartMesh& chart, const RestShapes& shapes, bool fill_holes,
+                                       VertexBlockSystem& system, const std::function<void()>& poll,
+                                       std::string& why) {
+  AngleFlattening flattening(chart, shapes, kSmallestAngle, 1, fill_holes);
+  std::unique_ptr<VertexBlockSystem> filled;
+  if (fill_holes) {
+    filled = std::make_unique<VertexBlockSystem>(flattening.VertexCount(), flattening.AllTriangles());
+  }
   for (int step = 0; step < kMostSteps; ++step) {
     if (poll) poll();
-    if (!flattening.Step(system)) {
+    if (!flattening.Step(fill_holes ? *filled : system)) {
       why = "the angles of its conformal map can't be computed";
       return std::nullopt;
     }
@@ -275,6 +332,34 @@ std::optional<PlanePoints> ConformalMap(const ChartMesh& chart, const RestShapes
     return std::nullopt;
   }
   return uv;
+}
+
+// Sum of the squared changes of angles between the rest shapes and a map without flips.
+double AngleChange(const Triangles& triangles, const RestShapes& shapes, const PlanePoints& uv) {
+  double sum = 0;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const RestShape flat =
+        ShapeFromCorners(uv[At(triangles(t, 0))], uv[At(triangles(t, 1))], uv[At(triangles(t, 2))]);
+    const Corners before = AnglesOf(shapes[At(t)]), after = AnglesOf(flat);
+    for (std::size_t i = 0; i < 3; ++i) sum += (after[i] - before[i]) * (after[i] - before[i]);
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::optional<PlanePoints> ConformalMap(const ChartMesh& chart, const RestShapes& shapes,
+                                        VertexBlockSystem& system, const std::function<void()>& poll,
+                                        std::string& why) {
+  std::optional<PlanePoints> map = MapByAngles(chart, shapes, false, system, poll, why);
+  if (BoundaryLoops(chart.triangles).size() == 1) return map;
+  std::string why_not_filled;
+  std::optional<PlanePoints> filled = MapByAngles(chart, shapes, true, system, poll, why_not_filled);
+  if (!filled) return map;
+  if (!map || AngleChange(chart.triangles, shapes, *filled) < AngleChange(chart.triangles, shapes, *map)) {
+    return filled;
+  }
+  return map;
 }
 
 }  // namespace dcharts
