@@ -68,6 +68,19 @@ def test_shipped_script(server, script, mesh):
     assert len(np.unique(there.colors, axis=0)) >= min(3, len(np.unique(there.quality)))
 
 
+def test_conformal_atlas(server, tmp_path, plush):
+    """The method of an atlas in a script: other texcoords than the default's, with less shear."""
+    shear, texcoords = {}, {}
+    for method in range(2):
+        run, out = server(one_filter(tmp_path, 'D-Charts: Texture Atlas', method=method), plush)
+        assert run.returncode == 0 and out is not None, run.stdout[-2000:]
+        shear[method] = float(re.search(r'\bl2_shear\b\W+([0-9.e+-]+)', run.stdout)[1])
+        texcoords[method] = ply_layers(out).texcoords
+        assert texcoords[method].min() >= 0 and texcoords[method].max() <= 1
+    assert not np.array_equal(texcoords[0], texcoords[1])
+    assert shear[1] < shear[0]
+
+
 def test_log_has_the_figures(server, plush):
     run, _ = server(EXAMPLES / 'texture_atlas.mlx', plush)
     for figure in ('charts', 'l2_stretch', 'linf_stretch', 'l2_shear', 'seam_length', 'flipped_faces',

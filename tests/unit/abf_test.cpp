@@ -197,7 +197,7 @@ TEST(Abf, AMapTooFineForTextureCoordinatesIsReplacedAndSaysSo) {
 TEST(Abf, AMapThatFoldsIsReplacedAndSaysSo) {
   // From end to end of this tube a conformal ring grows by e^19.
   const ChartMesh chart = Tube(20, 20, false, [](double angle, int ring) -> Eigen::RowVector3d {
-    return {std::cos(angle), std::sin(angle), ring};
+    return {std::cos(angle), std::sin(angle), 1.0 * ring};
   });
   const Flattening flat = Flatten(chart, Conformal());
   ExpectNoFlip(chart, flat);

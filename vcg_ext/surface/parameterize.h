@@ -127,6 +127,7 @@ class Parameterizer {
   void LayFlat(Piece& piece, FlattenMethod method, const std::function<void()>& poll) const {
     FlattenOptions options;
     options.method = method;
+    if (params_.max_stretch > 0) options.l2_bound = params_.max_stretch;
     const Flattening* known =
         method == FlattenMethod::kStretchMinimizing ? known_.Find(piece.patch) : nullptr;
     Flattening flat = known ? *known : Flatten(piece.patch.mesh, options, poll);
@@ -157,8 +158,10 @@ class Parameterizer {
   }
 
   void Store(const Piece& piece) {
-    for (int f : piece.patch.faces) notes_.erase(f);
-    if (!piece.note.empty()) notes_[piece.patch.faces.front()] = piece.note;
+    for (int f : piece.patch.faces) {
+      notes_.erase(f);
+      if (!piece.note.empty()) notes_[f] = piece.note;
+    }
     for (int h = 0; h < piece.patch.HalfEdgeCount(); ++h) {
       auto& wedge = wedge_[piece.patch.faces[h / 3]];
       wedge[2 * (h % 3)] = piece.uv(piece.patch.Vertex(h), 0);
@@ -167,15 +170,18 @@ class Parameterizer {
   }
 
   void LogNotes(const ChartIds& ids) {
-    for (const auto& [face, note] : notes_)
-      progress_.Log("chart " + std::to_string(ids[face]) + ": " + note + ".");
+    std::map<int, std::string> of_chart;
+    for (const auto& [face, note] : notes_) of_chart[ids[face]] = note;
+    for (const auto& [chart, note] : of_chart)
+      progress_.Log("chart " + std::to_string(chart) + ": " + note + ".");
   }
 
   // Keeps a good piece, cuts or splits another.
   void Settle(const Piece& piece, ChartIds& ids, SeamMask& seams, int& next_id) {
     const ChartPatch& patch = piece.patch;
     if (piece.flat && piece.overlaps.empty()) {
-      Store(piece);
+      // One that kept its place has it stored already, with the note on how it was flattened.
+      if (state_[patch.faces.front()] != State::kToCheck) Store(piece);
       for (int f : patch.faces) state_[f] = State::kDone;
       return;
     }
@@ -184,7 +190,7 @@ class Parameterizer {
       constexpr int kFreshTries = 3;
       const bool inherit = ++splits_[patch.faces.front()] > kFreshTries;
       for (int f : patch.faces) splits_[f] = splits_[patch.faces.front()];
-      if (inherit) Store(piece);
+      if (inherit && state_[patch.faces.front()] != State::kToCheck) Store(piece);
       SplitPiece(patch, SplitAtOverlaps(patch, piece.overlaps), inherit ? State::kToCheck : State::kToFlatten,
                  ids, seams, next_id);
       MarkCutOff(patch, ids);
@@ -369,7 +375,7 @@ class Parameterizer {
   bool all_disks_ = false;
   std::vector<std::array<double, 6>>
       wedge_;                         // of finished charts, each in its own frame, at the surface's scale
-  std::map<int, std::string> notes_;  // on how a chart was flattened, under one of its faces
+  std::map<int, std::string> notes_;  // per face, on how its chart was flattened
   std::vector<State> state_;          // the same for all faces of a chart
   std::vector<int> splits_;           // how often the face's chart was split because of overlaps
   std::vector<char> cut_off_;         // the face belongs to a part that was cut off because of an overlap

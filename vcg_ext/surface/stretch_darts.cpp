@@ -55,7 +55,9 @@ DartedChart CutStretchDarts(const ChartPatch& patch, const DartGoal& goal,
   constexpr int kMostDarts = 12, kMostFailures = 3;
   DartedChart chart;
   chart.patch = patch;
-  chart.flat = Flatten(patch.mesh, {}, poll);
+  FlattenOptions options;
+  options.l2_bound = goal.l2_stretch;
+  chart.flat = Flatten(patch.mesh, options, poll);
   if (!chart.flat.ok) return chart;
   std::vector<char> hopeless(patch.faces.size(), 0);  // darts to these faces were of no use
   for (int failures = 0;
@@ -77,7 +79,7 @@ DartedChart CutStretchDarts(const ChartPatch& patch, const DartGoal& goal,
     const double length = paths.Distance(tip);
     const std::vector<int> cut = paths.Path(tip);
     ChartPatch trial = CutOpen(open, cut);
-    Flattening flat = Flatten(trial.mesh, {}, poll);
+    Flattening flat = Flatten(trial.mesh, options, poll);
     if (Helps(chart.flat, flat, length, goal) &&
         OverlappingPairs(OnGrid(flat.uv, trial.mesh.triangles), 1).empty()) {
       chart.edges.insert(chart.edges.end(), cut.begin(), cut.end());
