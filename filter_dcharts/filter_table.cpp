@@ -175,12 +175,26 @@ std::vector<ParamSpec> MakeParams() {
        "stay apart; texture coordinates are between 0 and 1 whatever it is.",
        &Params::texture_size, 16, 65536},
       {"padding", "Padding (texels)",
-       "Free texels between charts and along the texture's edge, so that filtering does not mix their "
+       "Free texels between charts, and half as many along the texture's edge, so that filtering does not "
+       "mix their "
        "colours; at most "
        "a quarter of the texture size. Larger values leave less room for the charts; 0 lets charts touch.",
        &Params::padding, 0, 16384},
       {"rotate", "Turn charts",
        "Charts may be turned to pack them more tightly. Off keeps them as flattened.", &Params::rotate},
+      {"density_by",
+       "Texels by",
+       "How large charts are beside each other. Uniform gives all the same texels per length of the surface. "
+       "Vertex Quality gives a chart texels per length in proportion to the mean quality of its vertices: "
+       "where it is 2 twice as many as where it is 1. Negative and infinite values count "
+       "as 0, a chart gets at least a hundredth of what the best one gets, and where no vertex has a quality "
+       "above 0 all get the same. The stretch figures see the texture as a whole, so they grow with the "
+       "differences.",
+       &Params::density_by,
+       0,
+       1,
+       false,
+       {"Uniform", "Vertex Quality"}},
   };
 }
 
@@ -261,7 +275,7 @@ std::vector<FilterSpec> MakeFilters() {
        "itself is up to "
        "other filters.",
        "Sections 2, 4 and 5", atlas, texture,
-       Pick({"target_charts", "max_stretch", "method", "texture_size", "padding", "rotate"})},
+       Pick({"target_charts", "max_stretch", "method", "texture_size", "padding", "rotate", "density_by"})},
       {FilterId::kTextureAtlas, "D-Charts: Texture Atlas", "dcharts_texture_atlas",
        "Makes a texture atlas: segments the surface into nearly developable charts, fills, straightens, "
        "merges and cuts "

@@ -28,12 +28,14 @@ SurfaceData ReadSurface(Mesh& mesh) {
   SurfaceData data;
 
   std::vector<int> index(mesh.vert.size(), -1);  // place in the host's vector -> index among live vertices
+  const bool has_vertex_quality = vcg::tri::HasPerVertexQuality(mesh);
   data.vertices.reserve(mesh.vn);
   for (std::size_t i = 0; i < mesh.vert.size(); ++i) {
     if (mesh.vert[i].IsD()) continue;
     index[i] = static_cast<int>(data.vertices.size());
     const auto& p = mesh.vert[i].cP();
     data.vertices.push_back({double(p[0]), double(p[1]), double(p[2])});
+    if (has_vertex_quality) data.vertex_quality.push_back(mesh.vert[i].cQ());
   }
 
   const bool has_quality = vcg::tri::HasPerFaceQuality(mesh);

@@ -14,7 +14,7 @@ _STRAIGHTEN = ('straighten_by', 'max_fitting_error')
 _MERGE = ('target_charts', 'max_stretch', 'merge_by', 'seam_weight', 'merge_threshold', 'cut_to_disk')
 _CUT = ('target_charts', 'max_stretch', 'dart_by', 'dart_fitting_error', 'max_dart_percent', 'cut_to_disk',
         'seam_layer')
-_PARAMETERIZE = ('target_charts', 'max_stretch', 'method', 'texture_size', 'padding', 'rotate')
+_PARAMETERIZE = ('target_charts', 'max_stretch', 'method', 'texture_size', 'padding', 'rotate', 'density_by')
 
 # display name -> (name in Python, parameters)
 FILTERS = {
@@ -62,6 +62,7 @@ CHOICES = {
     'merge_by': ('Trial Flattening', 'Boundary Region'),
     'dart_by': ('Measured Stretch', 'Fitting Error'),
     'method': ('Stretch-minimizing', 'Conformal (ABF++)'),
+    'density_by': ('Uniform', 'Vertex Quality'),
 }
 
 _TETRAHEDRON = ('0 0 0', '1 0 0', '0 1 0', '0 0 1')

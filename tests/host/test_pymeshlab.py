@@ -220,13 +220,19 @@ def test_out_of_range(painted, name, parameter, value):
 def test_choices(parameter, plush):
     """Each choice has its own result, the first is the default, any other is refused."""
     results = []
-    for choice in CHOICES[parameter]:
+
+    def model():
         ms = load(plush)
+        ms.compute_scalar_by_function_per_vertex(q='1 + (x > 0)')  # for density_by
+        return ms
+
+    for choice in CHOICES[parameter]:
+        ms = model()
         figures = ms.apply_filter(ATLAS, **{parameter: choice})
         assert figures['flipped_faces'] == 0 and figures['overlapping_faces'] == 0
         results.append(result(ms)['wedge_tex_coord_matrix'])
     assert len(set(results)) == len(results)
-    ms = load(plush)
+    ms = model()
     ms.apply_filter(ATLAS)
     assert result(ms)['wedge_tex_coord_matrix'] == results[0]
     for wrong in ('', 'Spectral'):
@@ -246,6 +252,34 @@ def test_conformal_keeps_angles(plush):
         staged.dcharts_parameterize(method=choice)
         assert result(staged) == result(ms)
     assert shear['Conformal (ABF++)'] < shear['Stretch-minimizing']
+
+
+def test_density_follows_vertex_quality(plush):
+    """Texels per length of a chart are in proportion to the mean quality of its vertices; staged and at once the same."""
+    ms = load(plush)
+    ms.compute_scalar_by_function_per_vertex(q='1 + 3 * (x > 0)')
+    quality = ms.current_mesh().vertex_scalar_array()
+    assert set(quality) == {1, 4}
+    ms.apply_filter(ATLAS, density_by='Vertex Quality')
+    staged = load(plush)
+    staged.compute_scalar_by_function_per_vertex(q='1 + 3 * (x > 0)')
+    for name in STAGES[:-1]:
+        staged.apply_filter(name)
+    staged.dcharts_parameterize(density_by='Vertex Quality')
+    assert result(staged) == result(ms)
+
+    mesh = ms.current_mesh()
+    assert np.array_equal(mesh.vertex_scalar_array(), quality)
+    faces, charts = mesh.face_matrix(), mesh.face_scalar_array().astype(int)
+    points, uv = mesh.vertex_matrix()[faces], mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2)
+    area = np.linalg.norm(np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]), axis=1) / 2
+    a, b = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
+    uv_area = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
+    chart_area = np.bincount(charts, area)
+    density = np.sqrt(np.bincount(charts, uv_area) / chart_area)
+    wanted = np.bincount(charts, area * quality[faces].mean(axis=1)) / chart_area
+    assert wanted.max() > 1.5 * wanted.min()
+    assert np.ptp(density / wanted) < 0.05 * (density / wanted).mean()
 
 
 @pytest.mark.parametrize('parameter', [p for p, values in OUT_OF_RANGE.items() if isinstance(values[0], float)])

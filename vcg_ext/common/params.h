@@ -75,10 +75,11 @@ struct Params {
 
   // --- flattening and packing (2, 4, 5)
   FlattenMethod method =
-      FlattenMethod::kStretchMinimizing;  ///< of finished charts; trials always have the first
-  int texture_size = 1024;                ///< side of the square texture, texels, 16..65536
-  int padding = 2;                        ///< free texels between charts, 0..texture_size / 4
-  bool rotate = true;                     ///< charts may be turned for packing
+      FlattenMethod::kStretchMinimizing;       ///< of finished charts; trials always have the first
+  int texture_size = 1024;                     ///< side of the square texture, texels, 16..65536
+  int padding = 2;                             ///< free texels between charts, 0..texture_size / 4
+  bool rotate = true;                          ///< charts may be turned for packing
+  DensityBy density_by = DensityBy::kUniform;  ///< how large charts are beside each other
 };
 
 }  // namespace dcharts

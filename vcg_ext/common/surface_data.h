@@ -13,6 +13,7 @@ namespace dcharts {
 struct SurfaceData {
   std::vector<std::array<double, 3>> vertices;
   std::vector<std::array<int, 3>> faces;              ///< indices into vertices
+  std::vector<double> vertex_quality;                 ///< per vertex, or empty when the host has none
   std::vector<double> face_quality;                   ///< per face, or empty when the host has none
   std::vector<std::array<float, 6>> wedge_texcoords;  ///< per face u0 v0 u1 v1 u2 v2, or empty
   std::vector<std::int16_t> wedge_texture_index;      ///< per face (that of its first corner), or empty

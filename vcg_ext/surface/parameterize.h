@@ -25,6 +25,7 @@
 #include "surface/seams.h"
 #include "surface/slits.h"
 #include "surface/split_chart.h"
+#include "surface/texel_density.h"
 
 namespace dcharts {
 
@@ -38,8 +39,9 @@ class Parameterizer {
       : surface_(surface), params_(params), known_(known), progress_(progress), wedge_(surface.FaceCount()) {}
 
   /// `seams` must agree with `ids`. Both change where a chart had to be cut or split. Returns finished
-  /// texcoords.
-  WedgeTexcoords Run(ChartIds& ids, SeamMask& seams) {
+  /// texcoords. `face_density`: per face its texels per length beside other faces, of which a chart gets the
+  /// mean; empty = all alike.
+  WedgeTexcoords Run(ChartIds& ids, SeamMask& seams, const std::vector<double>& face_density) {
     ChartCutter<MeshType> cutter(surface_, params_, progress_);
     cutter.OpenHandles(ids, seams);
     all_disks_ = AllDisks(ids, seams);
@@ -52,7 +54,7 @@ class Parameterizer {
       FlattenAll(ids, seams);
       if (attempt == 0) RejoinCutOffs(ids, seams);
       WedgeTexcoords uv;
-      const std::vector<int> bad_charts = PackAndRound(ids, seams, uv);
+      const std::vector<int> bad_charts = PackAndRound(ids, seams, face_density, uv);
       if (bad_charts.empty() || attempt == kAttempts) {
         if (!bad_charts.empty())
           progress_.Log(
@@ -309,14 +311,16 @@ class Parameterizer {
 
   // Places all charts in the unit square on the texcoord grid. Returns the charts that overlap or flip there,
   // sorted.
-  std::vector<int> PackAndRound(const ChartIds& ids, const SeamMask& seams, WedgeTexcoords& uv) {
+  std::vector<int> PackAndRound(const ChartIds& ids, const SeamMask& seams,
+                                const std::vector<double>& face_density, WedgeTexcoords& uv) {
     const int chart_count = ChartCount(ids);
+    const std::vector<double> density = ChartDensities(surface_, ids, face_density);
     std::vector<std::vector<double>> rows(chart_count);
     for (int h = 0; h < surface_.HalfEdgeCount(); ++h) {
       if (surface_.Opposite(h) >= 0 && !IsSeam(seams, h)) continue;
       auto& r = rows[ids[h / 3]];
       for (int k : {h % 3, Next(h) % 3})
-        for (int d : {0, 1}) r.push_back(wedge_[h / 3][2 * k + d]);
+        for (int d : {0, 1}) r.push_back(density[ids[h / 3]] * wedge_[h / 3][2 * k + d]);
     }
     std::vector<Points2> outlines;
     for (const auto& r : rows)
@@ -340,7 +344,7 @@ class Parameterizer {
     for (int h = 0; h < surface_.HalfEdgeCount(); ++h) {
       const int c = ids[h / 3];
       const Eigen::Vector2d p(wedge_[h / 3][2 * (h % 3)], wedge_[h / 3][2 * (h % 3) + 1]);
-      const Eigen::Vector2d q = packing.scale * (turn[c] * p) + packing.placements[c].offset;
+      const Eigen::Vector2d q = packing.scale * (turn[c] * (density[c] * p)) + packing.placements[c].offset;
       x[cut.of_corner[h]] = to_grid(q.x());
       y[cut.of_corner[h]] = to_grid(q.y());
     }

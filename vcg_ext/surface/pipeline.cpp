@@ -74,7 +74,9 @@ void FinishAtlas(const Workspace& work, ChartIds& ids, SeamMask& seams, const Kn
   WedgeTexcoords uv;
   {
     Stage stage("parameterize", "Flattening charts...", from, 0.97, progress, change.report);
-    uv = Parameterizer<SurfaceMesh>(work.Surface(), params, known, progress).Run(ids, seams);
+    uv = Parameterizer<SurfaceMesh>(work.Surface(), params, known, progress)
+             .Run(ids, seams, params.density_by == DensityBy::kVertexQuality ? work.ReadDensity(progress)
+                                                                             : std::vector<double>());
     DropIneffectiveSeams(work.Surface(), seams);
   }
   Stage stage("measure", "Measuring...", 0.97, 1, progress, change.report);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "surface/fill.h"
+#include "surface/texel_density.h"
 
 namespace dcharts {
 
@@ -69,6 +70,10 @@ bool Workspace::ReadSeams(const ChartIds& ids, SeamMask& seams) const {
     }
   }
   return false;
+}
+
+std::vector<double> Workspace::ReadDensity(Progress& progress) const {
+  return DensityByVertexQuality(data_, built_.source_face, progress);
 }
 
 SeamMask Workspace::TextureSeams() const {

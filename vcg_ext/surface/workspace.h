@@ -36,6 +36,9 @@ class Workspace {
   /// does.
   bool ReadSeams(const ChartIds& ids, SeamMask& seams) const;
 
+  /// Per face the mean quality of its vertices; empty, and logged, when there is none above 0.
+  std::vector<double> ReadDensity(Progress& progress) const;
+
   void WriteCharts(const ChartIds& ids, SurfaceChange& change) const;  ///< ids and colours
   void WriteSeams(const SeamMask& seams, SurfaceChange& change) const;
   void WriteTexcoords(const WedgeTexcoords& uv, SurfaceChange& change) const;
