@@ -23,7 +23,10 @@ namespace dcharts {
 struct GraphCutOptions {
   double band = 0.05;            ///< how far from the old border the new one may lie, > 0
   double length_weight = 0.003;  ///< price of border length against area times fitting error, > 0
-  int max_sweeps = 2;            ///< over all pairs of charts; fewer where a sweep gains little, >= 1
+  /// A chart's proxy is fitted to its faces up to here from the common border, > 0: charts, large ones above
+  /// all, are cones near each border rather than as a whole.
+  double fit_radius = 0.1;
+  int max_sweeps = 2;  ///< over all pairs of charts; fewer where a sweep gains little, >= 1
 };
 
 /// Straightening borders by graph cuts, in place of Section 3.3's shortest paths: for each pair of adjacent
@@ -66,7 +69,6 @@ class GraphCutStraightener {
     std::vector<int> faces;  // may hold faces that have left, and some twice
     int face_count = 0;
     double area = 0;
-    ConeProxy proxy;
   };
 
   struct Pair {
@@ -98,9 +100,8 @@ class GraphCutStraightener {
     const auto faces = FacesOfCharts(ids);
     charts_.assign(faces.size(), {});
     for (size_t c = 0; c < faces.size(); ++c) {
-      NormalMoments moments;
-      for (int f : faces[c]) moments.Add(surface_.Area(f), surface_.Normal(f));
-      charts_[c] = {faces[c], static_cast<int>(faces[c].size()), moments.area, FitCone(moments)};
+      charts_[c] = {faces[c], static_cast<int>(faces[c].size()), 0};
+      for (int f : faces[c]) charts_[c].area += surface_.Area(f);
     }
     if (area_at_start_.empty())
       for (const Chart& chart : charts_) area_at_start_.push_back(chart.area);
@@ -156,10 +157,22 @@ class GraphCutStraightener {
     if (sources_.empty()) return false;
     for (int f : band_) node_[f] = -1;
     distance_.Run(
-        sources_, [&](int f) { return ids[f] == a || ids[f] == b; }, depth);
-    band_ = distance_.Reached();
+        sources_, [&](int f) { return ids[f] == a || ids[f] == b; },
+        std::max(depth, options_.fit_radius * unit_length_));
+    FitNearby(a, ids);
+    band_.clear();
+    for (int f : distance_.Reached())
+      if (distance_[f] <= depth) band_.push_back(f);
     for (size_t k = 0; k < band_.size(); ++k) node_[band_[k]] = static_cast<int>(k);
     return true;
+  }
+
+  // The order of the faces changes sums in their last digits only; Exactly() forgets those.
+  void FitNearby(int a, const ChartIds& ids) {
+    NormalMoments of_a, of_b;
+    for (int f : distance_.Reached()) (ids[f] == a ? of_a : of_b).Add(surface_.Area(f), surface_.Normal(f));
+    proxy_a_ = FitCone(of_a);
+    proxy_b_ = FitCone(of_b);
   }
 
   // Whole multiples of a small unit: sums are exact, and what is equally good stays so in any order.
@@ -188,8 +201,8 @@ class GraphCutStraightener {
       was_a_[k] = ids[f] == a;
       const double area = surface_.Area(f) / unit_area_;
       const double stay = was_a_[k] ? change_weight : -change_weight;
-      const double misfit_a = FittingError(charts_[a].proxy, surface_.Normal(f));
-      const double misfit_b = FittingError(charts_[b].proxy, surface_.Normal(f));
+      const double misfit_a = FittingError(proxy_a_, surface_.Normal(f));
+      const double misfit_b = FittingError(proxy_b_, surface_.Normal(f));
       pull_[k] += Exactly(area * (misfit_b - misfit_a + stay));
       for (int h = 3 * f; h < 3 * f + 3; ++h) {
         const int g = surface_.Neighbour(h);
@@ -367,6 +380,7 @@ class GraphCutStraightener {
   // The band of the present pair: its faces are the nodes 0, 1... of the flow network.
   std::vector<int> face_stamp_, sources_, band_;
   std::vector<int> node_;  // per face, -1 outside the band
+  ConeProxy proxy_a_, proxy_b_;
   std::vector<double> pull_;
   std::vector<FlowEdge> edges_;
   std::vector<bool> was_a_, side_, anchored_;
