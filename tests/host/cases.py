@@ -11,7 +11,7 @@ _SEGMENT = ('chart_count', 'max_fitting_error', 'fitting_weight', 'compactness_w
             'max_iterations', 'reassigned_percent', 'seed_candidates', 'seed_percent', 'target_charts', 'max_stretch')
 _FILL = ('max_fitting_error', 'fitting_weight', 'compactness_weight', 'straightness_weight', 'small_hole_percent')
 _STRAIGHTEN = ('straighten_by', 'max_fitting_error')
-_MERGE = ('target_charts', 'max_stretch', 'merge_by', 'seam_weight', 'merge_threshold', 'cut_to_disk')
+_MERGE = ('target_charts', 'max_stretch', 'merge_by', 'seam_weight', 'merge_threshold')
 _CUT = ('target_charts', 'max_stretch', 'dart_by', 'dart_fitting_error', 'max_dart_percent', 'cut_to_disk',
         'seam_layer')
 _PARAMETERIZE = ('target_charts', 'max_stretch', 'method', 'texture_size', 'padding', 'rotate', 'density_by')

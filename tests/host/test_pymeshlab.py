@@ -240,6 +240,20 @@ def test_choices(parameter, plush):
             load(plush).apply_filter(ATLAS, **{parameter: wrong})
 
 
+def test_graph_cut_makes_shorter_borders(plush):
+    """Than no straightening, and than the paper's way, on a model with many charts; the charts stay as many."""
+    lengths = {}
+    for choice in CHOICES['straighten_by']:
+        ms = load(plush)
+        ms.dcharts_segment(chart_count=30)
+        before = ms.dcharts_fill()
+        after = ms.dcharts_straighten(straighten_by=choice)
+        assert after['charts'] == before['charts']
+        assert after['seam_length'] < 0.9 * before['seam_length']
+        lengths[choice] = after['seam_length']
+    assert lengths['Graph Cut'] < lengths['Shortest Path']
+
+
 def test_conformal_keeps_angles(plush):
     """Less shear than the least stretch, by the plugin's own figure; staged and at once the same."""
     shear = {}

@@ -219,6 +219,26 @@ TEST(StraightenGraphCut, ShortensSegmentedModels) {
   }
 }
 
+// A crease weighs little at this angle; the fitting error draws the border to where the planes meet.
+TEST(StraightenGraphCut, BorderMovesToWhereTwoPlanesMeet) {
+  const int n = 40;
+  SurfaceData mesh = shapes::Grid(3 * n, n);
+  for (auto& p : mesh.vertices) {
+    const double x = 3 * p[0], c = std::cos(35 * kPi / 180), s = std::sin(35 * kPi / 180);
+    if (x > 2)
+      p = {x, p[1], 0};
+    else
+      p = {2 - c * (2 - x), p[1], -s * (2 - x)};
+  }
+  const TestSurface surface(mesh);
+  const ChartIds at_fold = surface.Paint([](const auto& p) { return p[0] > 2 ? 1 : 0; });
+  for (double off : {-1.7 / n, 1.7 / n}) {
+    const ChartIds beside = surface.Paint([&](const auto& p) { return p[0] > 2 + off ? 1 : 0; });
+    ASSERT_NE(beside, at_fold);
+    EXPECT_EQ(Straightened(surface, beside), at_fold);
+  }
+}
+
 // A larger weight of length: shorter borders, never longer.
 TEST(StraightenGraphCut, LengthWeightShortens) {
   std::mt19937 random(8);
