@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Flattens random charts and makes atlases of them: no flipped triangle, no overlap, nothing that isn't
-// finite; a chart may be refused with a reason. Prints a line for each kind of chart and one for each
-// failure, with the seed that makes it again. usage: fuzz_charts FIRST_SEED COUNT
+// Flattens random charts, by both methods, and makes atlases of them: no flipped triangle, no overlap,
+// nothing that isn't finite; a chart may be refused with a reason. Prints a line for each kind of chart and
+// one for each failure, with the seed that makes it again. usage: fuzz_charts FIRST_SEED COUNT
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -106,15 +106,21 @@ void Try(unsigned long long seed, std::array<Tally, dcharts::fuzz::kChartKinds>&
   Tally& tally = tallies[static_cast<std::size_t>(chart.kind)];
   const auto start = std::chrono::steady_clock::now();
   ++tally.charts;
-  const dcharts::Flattening flat = dcharts::Flatten(chart.mesh);
-  if (flat.ok) {
-    const std::string wrong = WrongWith(chart.mesh, flat);
-    if (!wrong.empty()) Fail(seed, chart, wrong, tally);
-  } else if (flat.why.empty()) {
-    Fail(seed, chart, "refused without a reason", tally);
-  } else {
-    ++tally.refused;
+  bool refused = false;
+  for (const auto method : {dcharts::FlattenMethod::kStretchMinimizing, dcharts::FlattenMethod::kConformal}) {
+    dcharts::FlattenOptions options;
+    options.method = method;
+    const dcharts::Flattening flat = dcharts::Flatten(chart.mesh, options);
+    if (flat.ok) {
+      const std::string wrong = WrongWith(chart.mesh, flat);
+      if (!wrong.empty()) Fail(seed, chart, wrong, tally);
+    } else if (flat.why.empty()) {
+      Fail(seed, chart, "refused without a reason", tally);
+    } else {
+      refused = true;
+    }
   }
+  if (refused) ++tally.refused;
   try {
     dcharts::Progress progress;
     const std::string wrong =
