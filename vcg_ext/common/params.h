@@ -41,10 +41,10 @@ struct Params {
   int chart_count = 0;  ///< initial seeds, >= 0; 0 = find the number
   double max_fitting_error =
       0.2;  ///< F_max, bound of Eq. 1 while growing; 0 < F_max <= 4, no unit (squared cosine)
-  double fitting_weight = 1.0;       ///< alpha of Eq. 2, 0..10
-  double compactness_weight = 0.7;   ///< beta of Eq. 2, 0..10
-  double straightness_weight = 0.5;  ///< gamma of Eq. 2, 0..10
-  int max_iterations = 100;          ///< bound on the Lloyd iterations, 1..10000
+  double fitting_weight = 1.0;      ///< alpha of Eq. 2, 0..10
+  double compactness_weight = 1.4;  ///< beta of Eq. 2, 0..10
+  double straightness_weight = 1;   ///< gamma of Eq. 2, 0..10
+  int max_iterations = 100;         ///< bound on the Lloyd iterations, 1..10000
   double reassigned_percent =
       5.0;                    ///< stop when fewer faces than this changed chart, percent of the faces, 0..100
   int seed_candidates = 10;   ///< k: a new seed is the most central of the k best-fitting faces, >= 1

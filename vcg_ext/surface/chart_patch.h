@@ -62,6 +62,9 @@ struct ChartPatch {
                           c = mesh.positions.row(mesh.triangles(face, 2));
     return (b - a).cross(c - a).norm() / 2;
   }
+  double Diagonal() const {  ///< of the bounding box
+    return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
+  }
   double Area() const {
     double area = 0;
     for (int f = 0; f < static_cast<int>(faces.size()); ++f) area += FaceArea(f);

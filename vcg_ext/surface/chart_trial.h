@@ -12,14 +12,16 @@ namespace dcharts {
 struct ChartTrial {
   bool flat = false;      ///< it can be flattened within the bound, and doesn't overlap itself then
   double stretch = 0;     ///< L2 stretch at the chart's own scale, >= 1; 0 when there is no map at all
+  double energy = 0;      ///< symmetric Dirichlet / 4 - 1, mean over the area, >= 0
   double cut_length = 0;  ///< of the cuts it needs to lie flat, model units
-
-  /// Its part in the L2 stretch of an atlas less 1, times the atlas's area: area (stretch^2 - 1) / 2.
-  double Energy(double area) const { return area * (stretch * stretch - 1) / 2; }
 };
 
-/// Opens the patch as D-Charts: Cut would and flattens it with least stretch, whatever method the atlas will
-/// have. Is not flat when the L2 stretch is sure to stay above `bound`. `poll` may throw to stop the work.
+/// The patch opened as D-Charts: Cut does before it looks for darts: no handle, and loops joined where they
+/// would not lie flat. `cut_length` is what that takes, model units.
+ChartPatch Opened(const ChartPatch& patch, double& cut_length);
+
+/// Opens the patch and flattens it with least stretch, whatever method the atlas will have. Is not flat when
+/// the L2 stretch is sure to stay above `bound`. `poll` may throw to stop the work.
 ChartTrial TryChart(const ChartPatch& patch, double bound, const std::function<void()>& poll);
 
 }  // namespace dcharts

@@ -104,7 +104,8 @@ class ChartCutter {
       for (const auto& faces : FacesOfCharts(ids))
         if (!done[faces.front()]) charts.push_back({{}, 0, extractor.Extract(faces), {}});
       ParallelFor(static_cast<int>(charts.size()), progress_, [&](int k, const std::function<void()>& poll) {
-        charts[k] = CutStretchDarts(charts[k].patch, GoalOf(charts[k].patch, bound), poll);
+        charts[k] = CutStretchDarts(charts[k].patch, known.Find(charts[k].patch),
+                                    GoalOf(charts[k].patch, bound), poll);
       });
       int next_id = ChartCount(ids);
       for (DartedChart& chart : charts) {
@@ -135,10 +136,12 @@ class ChartCutter {
 
   DartGoal GoalOf(const ChartPatch& patch, double bound) const {
     constexpr double kWorstStretch = 1.3;
-    const Eigen::RowVector3d size =
-        patch.mesh.positions.colwise().maxCoeff() - patch.mesh.positions.colwise().minCoeff();
-    return {bound, kWorstStretch, params_.max_dart_percent / 100 * size.norm(),
-            std::sqrt(surface_.TotalArea())};
+    DartGoal goal;
+    goal.l2_stretch = bound;
+    goal.linf_stretch = kWorstStretch;
+    goal.longest = params_.max_dart_percent / 100 * patch.Diagonal();
+    goal.unit = std::sqrt(surface_.TotalArea());
+    return goal;
   }
 
   void PartChart(const ChartPatch& patch, int new_id, ChartIds& ids, SeamMask& seams) const {

@@ -62,9 +62,9 @@ SurfaceChange ChartsWritten(const Workspace& work, const ChartIds& ids, SurfaceC
 }
 
 void MergeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, Progress& progress,
-                 ChartIds& ids) {
+                 ChartIds& ids, KnownFlattenings& known) {
   if (params.merge_by == MergeMethod::kTrialFlattening)
-    TrialMerger<SurfaceMesh>(surface, params, progress).Run(ids);
+    TrialMerger<SurfaceMesh>(surface, params, progress).Run(ids, known);
   else
     Merger<SurfaceMesh>(surface, params, progress).Run(ids);
 }
@@ -75,8 +75,9 @@ void FinishAtlas(const Workspace& work, ChartIds& ids, SeamMask& seams, const Kn
   {
     Stage stage("parameterize", "Flattening charts...", from, 0.97, progress, change.report);
     uv = Parameterizer<SurfaceMesh>(work.Surface(), params, known, progress)
-             .Run(ids, seams, params.density_by == DensityBy::kVertexQuality ? work.ReadDensity(progress)
-                                                                             : std::vector<double>());
+             .Run(ids, seams,
+                  params.density_by == DensityBy::kVertexQuality ? work.ReadDensity(progress)
+                                                                 : std::vector<double>());
     DropIneffectiveSeams(work.Surface(), seams);
   }
   Stage stage("measure", "Measuring...", 0.97, 1, progress, change.report);
@@ -129,7 +130,8 @@ SurfaceChange Merge(const SurfaceData& mesh, const Params& params, Progress& pro
   ChartIds ids = work.ReadFilledCharts(progress);
   {
     Stage stage("merge", "Merging charts...", 0.02, 1, progress, change.report);
-    MergeCharts(work.Surface(), params, progress, ids);
+    KnownFlattenings known;
+    MergeCharts(work.Surface(), params, progress, ids, known);
   }
   return ChartsWritten(work, ids, std::move(change));
 }
@@ -191,7 +193,7 @@ SurfaceChange TextureAtlas(const SurfaceData& mesh, const Params& params, Progre
   }
   {
     Stage stage("merge", "Merging charts...", 0.42, 0.45, progress, change.report);
-    MergeCharts(surface, params, progress, ids);
+    MergeCharts(surface, params, progress, ids, known);
   }
   {
     Stage stage("cut", "Cutting darts...", 0.45, 0.5, progress, change.report);

@@ -50,14 +50,15 @@ bool Helps(const Flattening& before, const Flattening& after, double length, con
 
 }  // namespace
 
-DartedChart CutStretchDarts(const ChartPatch& patch, const DartGoal& goal,
+DartedChart CutStretchDarts(const ChartPatch& patch, const Flattening* known, const DartGoal& goal,
                             const std::function<void()>& poll) {
   constexpr int kMostDarts = 12, kMostFailures = 3;
   DartedChart chart;
   chart.patch = patch;
   FlattenOptions options;
   options.l2_bound = goal.l2_stretch;
-  chart.flat = Flatten(patch.mesh, options, poll);
+  chart.flat = known ? *known : Flatten(patch.mesh, options, poll);
+  double total_length = 0;
   if (!chart.flat.ok) return chart;
   std::vector<char> hopeless(patch.faces.size(), 0);  // darts to these faces were of no use
   for (int failures = 0;
@@ -72,7 +73,8 @@ DartedChart CutStretchDarts(const ChartPatch& patch, const DartGoal& goal,
     int tip = -1;
     for (int h = 0; h < open.HalfEdgeCount(); ++h) {
       const int v = open.Vertex(h);
-      if (hopeless[h / 3] || paths.OnBoundary(v) || !(paths.Distance(v) <= goal.longest)) continue;
+      const double reach = std::min(goal.longest, goal.most_length - total_length);
+      if (hopeless[h / 3] || paths.OnBoundary(v) || !(paths.Distance(v) <= reach)) continue;
       if (tip < 0 || stretch[v] > stretch[tip]) tip = v;
     }
     if (tip < 0) break;
@@ -84,6 +86,7 @@ DartedChart CutStretchDarts(const ChartPatch& patch, const DartGoal& goal,
         OverlappingPairs(OnGrid(flat.uv, trial.mesh.triangles), 1).empty()) {
       chart.edges.insert(chart.edges.end(), cut.begin(), cut.end());
       ++chart.count;
+      total_length += length;
       chart.patch = std::move(trial);
       chart.flat = std::move(flat);
       continue;

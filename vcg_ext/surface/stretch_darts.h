@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "planar/flatten.h"
@@ -14,7 +15,10 @@ struct DartGoal {
   double l2_stretch = 1;    ///< of the chart at its own scale
   double linf_stretch = 1;  ///< the same
   double longest = 0;       ///< bound on a dart's length, model units
-  double unit = 1;          ///< what lengths of cuts are measured by, model units
+  double most_length =
+      std::numeric_limits<double>::infinity();  ///< bound on the length of all darts together, model units
+  double unit =
+      1;  ///< the length of dart for which the Linf stretch has to fall by kLinfPerUnit, model units
 };
 
 /// A chart with its darts, flattened.
@@ -27,7 +31,9 @@ struct DartedChart {
 
 /// Darts by measured stretch: flattens the chart, cuts from the border to the place that is stretched most,
 /// and flattens it again, until the goal is reached. A dart that doesn't help, or makes the chart overlap
-/// itself, is taken back. The patch must be one that can be flattened. `poll` may throw to stop the work.
-DartedChart CutStretchDarts(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll);
+/// itself, is taken back. The patch must be one that can be flattened; `known` is its flattening, or null.
+/// `poll` may throw to stop the work.
+DartedChart CutStretchDarts(const ChartPatch& patch, const Flattening* known, const DartGoal& goal,
+                            const std::function<void()>& poll);
 
 }  // namespace dcharts

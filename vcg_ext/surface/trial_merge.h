@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <queue>
@@ -14,145 +15,113 @@
 #include "common/parallel.h"
 #include "common/params.h"
 #include "common/progress.h"
+#include "planar/overlap.h"
+#include "surface/chart_parts.h"
 #include "surface/chart_trial.h"
 #include "surface/charts.h"
-#include "surface/coarsen.h"
-#include "surface/split_chart.h"
+#include "surface/known_flattenings.h"
+#include "surface/split_bad_charts.h"
+#include "surface/stretch_darts.h"
 
 namespace dcharts {
 
 /// Merging charts by trial flattening: of all pairs of neighbours, the one first that adds the least stretch
 /// for the seam it saves. Takes the place of the merge test of Section 3.3.
+///
+/// What is minimized, for a surface of area 1, is the symmetric Dirichlet energy (over 4, less 1) of all
+/// charts plus kSeamPrice * params.seam_weight * length of all seams. Trials are made on a coarse copy of the
+/// surface; what comes of them is checked on the surface itself.
 template <class MeshType>
 class TrialMerger {
  public:
   TrialMerger(const SurfaceGraph<MeshType>& surface, const Params& params, Progress& progress)
-      : surface_(surface), params_(params), progress_(progress), no_seams_(surface.FaceCount(), 0) {}
+      : surface_(surface), params_(params), progress_(progress) {}
 
-  /// Every face must have a chart. Charts that don't lie flat well by themselves are parted first; then
-  /// charts are merged until there are params.target_charts, or, without a target, as long as the stretch of
-  /// each stays within params.max_stretch, or, without a bound, as long as a shorter seam is worth the
-  /// stretch.
-  void Run(ChartIds& ids) {
-    PartBadCharts(ids);
-    const CoarseSurface coarse = CoarsenCharts(surface_, ids, kCoarseFaces);
-    const SurfaceGraph<SurfaceMesh> coarse_graph(*coarse.mesh);
-    const SeamMask no_coarse_seams(coarse_graph.FaceCount(), 0);
-    PatchExtractor<SurfaceMesh> coarse_extractor(coarse_graph, no_coarse_seams);
-    coarse_ = &coarse_extractor;
-    coarse_faces_ = FacesOfCharts(coarse.ids);
-    Prepare(ids);
+  /// Every face must have a chart. Charts that don't lie flat well by themselves are split first; then charts
+  /// are merged until there are params.target_charts, or, without a target, as long as the stretch of each
+  /// stays within params.max_stretch, or, without a bound, as long as a shorter seam is worth the stretch.
+  /// Flattenings of finished charts are left in `known`.
+  void Run(ChartIds& ids, KnownFlattenings& known) {
+    constexpr double kGood = 1.01;  // a segment that lies flat worse than this is better split
+    known_ = &known;
+    SplitBadCharts(surface_, std::min(Bound(), kGood), progress_, ids);
+    ChartParts<MeshType> parts(surface_, ids);
+    parts_ = &parts;
+    Prepare();
     Merge(Bound());
-    if (AboveTarget()) {
-      progress_.Log("A chart had to exceed max_stretch for the number of charts asked for.");
-      Merge(kNoBound);
-    }
+    if (MayMergeMore() && Bound() < kNoBound) MergeWithDarts();
+    if (AboveTarget()) Merge(kNoBound);
+    MoveParts();
     for (int c = 0; c < static_cast<int>(charts_.size()); ++c)
       if (charts_[c].alive)
         for (int part : charts_[c].parts)
-          for (int f : fine_faces_[part]) ids[f] = c;
+          for (int f : parts.FineFaces(part)) ids[f] = c;
     SplitAndCompact(surface_, ids);
   }
 
  private:
   static constexpr double kNoBound = std::numeric_limits<double>::infinity();
-  static constexpr int kCoarseFaces = 6000;  // in all: enough to rank merges
-  // Stretch that a seam as long as the side of a square with the surface's area may cost, in L2 stretch of
-  // the whole atlas.
-  static constexpr double kSeamPrice = 0.002;
+  // Energy that a seam as long as the side of a square with the surface's area may cost.
+  static constexpr double kSeamPrice = 0.0025;
 
-  /// A node of the tree of merges; the first ones, without children, are the charts before.
   struct Chart {
-    std::vector<int> parts;  ///< charts before
+    std::vector<int> parts{};
     double area = 0;
-    ChartTrial trial;  ///< of the coarse chart
-    int first = -1, second = -1;
+    ChartTrial trial{};           // of the coarse chart
+    int first = -1, second = -1;  // what it was merged from
     bool alive = true;
-    bool checked = false;           ///< lies flat on the fine surface
-    std::map<int, double> borders;  ///< neighbour: length, while alive
+    bool verified = false;            // lies flat on the fine surface
+    std::map<int, double> borders{};  // neighbour: length; while the queue runs
   };
 
-  /// What is known of the union of two charts.
+  // What is known of the union of two charts.
   struct Union {
     bool tried = false;
-    ChartTrial trial;   ///< when tried
-    double energy = 0;  ///< a lower bound while not tried
-    bool refused = false;
+    ChartTrial trial{};       // when tried
+    double least_energy = 0;  // times area
+    bool refused = false;     // on the fine surface
   };
 
-  double Bound() const { return params_.max_stretch > 0 ? params_.max_stretch : kNoBound; }
+  double Bound() const { return params_.max_stretch > 0 ? std::max(1.0, params_.max_stretch) : kNoBound; }
+  bool AboveTarget() const { return params_.target_charts > 0 && alive_ > params_.target_charts; }
+  bool MayMergeMore() const { return params_.target_charts == 0 || AboveTarget(); }
   // The coarse chart is a little worse than the fine one.
   double CoarseBound() const {
     constexpr double kCoarseExcess = 1.3;
     return 1 + kCoarseExcess * (bound_ - 1);
   }
-
-  bool AboveTarget() const { return params_.target_charts > 0 && alive_ > params_.target_charts; }
-
-  // Each chart that doesn't lie flat within the bound is halved until it does.
-  void PartBadCharts(ChartIds& ids) {
-    constexpr double kGood = 1.01;
-    const double bound = std::min(Bound(), kGood);
-    PatchExtractor<MeshType> extractor(surface_, no_seams_);
-    std::vector<char> good(surface_.FaceCount(), 0);
-    for (bool again = true; again;) {
-      again = false;
-      std::vector<ChartPatch> patches;
-      for (const auto& faces : FacesOfCharts(ids))
-        if (!good[faces.front()]) patches.push_back(extractor.Extract(faces));
-      std::vector<char> bad(patches.size(), 0);
-      ParallelFor(static_cast<int>(patches.size()), progress_, [&](int k, const std::function<void()>& poll) {
-        bad[k] = !TryChart(patches[k], bound, poll).flat;
-      });
-      int next_id = ChartCount(ids);
-      for (size_t k = 0; k < patches.size(); ++k) {
-        const std::vector<int>& faces = patches[k].faces;
-        if (!bad[k] || faces.size() < 2) {
-          for (int f : faces) good[f] = 1;
-          continue;
-        }
-        again = true;
-        const std::vector<int> side = Bisect(patches[k]);
-        for (size_t i = 0; i < faces.size(); ++i)
-          if (side[i] == 1) ids[faces[i]] = next_id;
-        ++next_id;
-      }
-      if (again) SplitAndCompact(surface_, ids);
-    }
+  double SeamCost(double length) const { return params_.seam_weight * kSeamPrice * length; }
+  double Energy(int c) const { return charts_[c].trial.energy * charts_[c].area; }
+  double CutLength(const ChartTrial& trial) const { return trial.cut_length / parts_->Unit(); }
+  std::function<void()> Poll() {
+    return [this] { progress_.Poll(); };
   }
 
-  void Prepare(const ChartIds& ids) {
-    fine_faces_ = FacesOfCharts(ids);
-    alive_ = static_cast<int>(fine_faces_.size());
-    charts_.assign(fine_faces_.size(), {});
-    for (int c = 0; c < alive_; ++c) charts_[c].parts = {c};
-    for (int f = 0; f < surface_.FaceCount(); ++f) charts_[ids[f]].area += surface_.Area(f);
-    for (int h = 0; h < surface_.HalfEdgeCount(); ++h) {
-      const int g = surface_.Neighbour(h);
-      if (g >= 0 && ids[g] > ids[h / 3]) part_borders_[{ids[h / 3], ids[g]}] += surface_.Length(h);
-    }
+  Chart Made(std::vector<int> of_parts) const {
+    Chart chart;
+    chart.parts = std::move(of_parts);
+    for (int part : chart.parts) chart.area += parts_->Area(part);
+    return chart;
+  }
+
+  std::vector<int> PartsOfBoth(int a, int b) const {
+    const std::vector<int>&p = charts_[a].parts, &q = charts_[b].parts;
+    std::vector<int> both(p.size() + q.size());
+    std::merge(p.begin(), p.end(), q.begin(), q.end(), both.begin());
+    return both;
+  }
+
+  void Prepare() {
+    alive_ = parts_->Count();
     std::vector<ChartPatch> patches;
-    for (const Chart& c : charts_) patches.push_back(CoarsePatch(c.parts));
+    for (int c = 0; c < alive_; ++c) {
+      charts_.push_back(Made({c}));
+      charts_.back().verified = true;  // by SplitBadCharts
+      patches.push_back(parts_->CoarsePatch({c}));
+    }
     ParallelFor(alive_, progress_, [&](int c, const std::function<void()>& poll) {
       charts_[c].trial = TryChart(patches[c], kNoBound, poll);
-      charts_[c].checked = true;  // by PartBadCharts
     });
-  }
-
-  ChartPatch CoarsePatch(const std::vector<int>& parts) const {
-    return coarse_->Extract(FacesOf(parts, coarse_faces_));
-  }
-
-  static std::vector<int> FacesOf(const std::vector<int>& parts, const std::vector<std::vector<int>>& of) {
-    std::vector<int> faces;
-    for (int part : parts) faces.insert(faces.end(), of[part].begin(), of[part].end());
-    return faces;
-  }
-
-  static std::vector<int> PartsOf(const Chart& a, const Chart& b) {
-    std::vector<int> parts(a.parts.size() + b.parts.size());
-    std::merge(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(), parts.begin());
-    return parts;
   }
 
   // Merges until done, then has all charts checked on the fine surface; those that fail there are taken
@@ -160,44 +129,49 @@ class TrialMerger {
   void Merge(double bound) {
     bound_ = bound;
     for (auto& entry : unions_) entry.second.tried &= entry.second.trial.flat;  // by another bound
-    constexpr int kRounds = 8;
+    constexpr int kRounds = 12;
     for (int round = 0; round < kRounds; ++round) {
       StartQueue();
-      while (!queue_.empty() && !(params_.target_charts > 0 && !AboveTarget())) {
+      while (!queue_.empty() && MayMergeMore()) {
         const auto [later, key, a, b, tried] = queue_.top();
         queue_.pop();
         if (!charts_[a].alive || !charts_[b].alive) continue;
         if (!tried)
           TryPair(a, b);
-        else if (Worthwhile(key))
-          Accept(a, b);
+        else if (params_.target_charts > 0 || bound_ < kNoBound || key < 0)
+          AcceptPair(a, b);
       }
       if (!UndoBadMerges()) return;
     }
   }
 
-  bool Worthwhile(double key) const { return params_.target_charts > 0 || bound_ < kNoBound || key < 0; }
+  std::vector<int> Owners() const {
+    std::vector<int> owner(parts_->Count());
+    for (int c = 0; c < static_cast<int>(charts_.size()); ++c)
+      if (charts_[c].alive)
+        for (int part : charts_[c].parts) owner[part] = c;
+    return owner;
+  }
+
+  void FindBorders() {
+    const std::vector<int> owner = Owners();
+    for (Chart& chart : charts_) chart.borders.clear();
+    for (int p = 0; p < parts_->Count(); ++p)
+      for (const auto& [q, length] : parts_->Borders(p))
+        if (owner[p] != owner[q]) charts_[owner[p]].borders[owner[q]] += length;
+  }
 
   void StartQueue() {
     queue_ = {};
-    std::vector<int> owner(fine_faces_.size());
-    for (int c = 0; c < static_cast<int>(charts_.size()); ++c) {
-      charts_[c].borders.clear();
-      if (charts_[c].alive)
-        for (int part : charts_[c].parts) owner[part] = c;
-    }
-    for (const auto& [pair, length] : part_borders_) {
-      const int a = owner[pair.first], b = owner[pair.second];
-      if (a == b) continue;
-      charts_[a].borders[b] += length;
-      charts_[b].borders[a] += length;
-    }
+    FindBorders();
     std::vector<std::pair<int, int>> untried;
+    std::vector<ChartPatch> patches;
     for (int a = 0; a < static_cast<int>(charts_.size()); ++a)
       for (const auto& [b, length] : charts_[a].borders)
-        if (a < b && !unions_[{a, b}].tried) untried.push_back({a, b});
-    std::vector<ChartPatch> patches;
-    for (const auto& [a, b] : untried) patches.push_back(CoarsePatch(PartsOf(charts_[a], charts_[b])));
+        if (a < b && !unions_[{a, b}].tried) {
+          untried.push_back({a, b});
+          patches.push_back(parts_->CoarsePatch(PartsOfBoth(a, b)));
+        }
     std::vector<ChartTrial> trials(untried.size());
     ParallelFor(static_cast<int>(untried.size()), progress_, [&](int k, const std::function<void()>& poll) {
       trials[k] = TryChart(patches[k], CoarseBound(), poll);
@@ -212,111 +186,230 @@ class TrialMerger {
     Union& both = unions_[{a, b}];
     both.tried = true;
     both.trial = trial;
-    // Of a refused one only the bound is known to be exceeded.
-    const double stretch = trial.flat ? trial.stretch : std::min(trial.stretch, CoarseBound());
-    const double area = charts_[a].area + charts_[b].area;
-    both.energy = stretch > 0 ? ChartTrial{true, stretch, 0}.Energy(area) : 0;
+    if (trial.flat) both.least_energy = trial.energy * (charts_[a].area + charts_[b].area);
   }
 
   void TryPair(int a, int b) {
     progress_.Poll();
-    Record(a, b,
-           TryChart(CoarsePatch(PartsOf(charts_[a], charts_[b])), CoarseBound(), [&] { progress_.Poll(); }));
+    Record(a, b, TryChart(parts_->CoarsePatch(PartsOfBoth(a, b)), CoarseBound(), Poll()));
     Push(a, b);
   }
 
-  double Energy(int c) const { return charts_[c].trial.Energy(charts_[c].area); }
-
   // Queues a pair under what its merge costs, or costs at least, unless it is out of the question.
   void Push(int a, int b) {
-    if (a > b) std::swap(a, b);
     const Union& both = unions_[{a, b}];
     if (both.refused || (both.tried && !both.trial.flat)) return;
-    double cut = 0;
-    if (both.tried) cut = both.trial.cut_length - charts_[a].trial.cut_length - charts_[b].trial.cut_length;
-    const double seam = charts_[a].borders[b] - cut;
-    const double key = (both.energy - Energy(a) - Energy(b)) / surface_.TotalArea() -
-                       params_.seam_weight * kSeamPrice * seam / std::sqrt(surface_.TotalArea());
+    double saved = charts_[a].borders[b];
+    if (both.tried)
+      saved -= CutLength(both.trial) - CutLength(charts_[a].trial) - CutLength(charts_[b].trial);
+    const double key = both.least_energy - Energy(a) - Energy(b) - SeamCost(saved);
     // A tiny chart is hard to place once the charts around it are large: it comes first.
-    constexpr double kTiny = 0.003;  // of the surface
-    const bool later = std::min(charts_[a].area, charts_[b].area) > kTiny * surface_.TotalArea();
+    constexpr double kTiny = 0.003;
+    const bool later = std::min(charts_[a].area, charts_[b].area) > kTiny;
     queue_.push({later, key, a, b, both.tried});
   }
 
-  void Accept(int a, int b) {
-    Union& both = unions_[{a, b}];
-    Chart merged;
-    merged.parts = PartsOf(charts_[a], charts_[b]);
-    merged.area = charts_[a].area + charts_[b].area;
-    merged.trial = both.trial;
-    merged.first = a;
-    merged.second = b;
-    // Near the bound the coarse chart doesn't tell.
-    constexpr double kClearlyWithin = 0.5;
-    if (both.trial.stretch - 1 > kClearlyWithin * (bound_ - 1)) {
-      merged.checked = true;
-      if (!GoodOnFineSurface(merged)) {
-        both.refused = true;
-        return;
-      }
-    }
-    const int n = static_cast<int>(charts_.size());
+  void AcceptPair(int a, int b) {
+    const Union& both = unions_[{a, b}];
+    const int n = Join(a, b, both.trial);
     for (int x : {a, b})
       for (const auto& [c, length] : charts_[x].borders)
-        if (c != a && c != b) merged.borders[c] += length;
-    charts_.push_back(std::move(merged));
-    charts_[a].alive = charts_[b].alive = false;
-    --alive_;
+        if (c != a && c != b) charts_[n].borders[c] += length;
     for (const auto& [c, length] : charts_[n].borders) {
       charts_[c].borders.erase(a);
       charts_[c].borders.erase(b);
       charts_[c].borders[n] = length;
       // Least energies are superadditive: E(abc) >= E(ac) + E(b).
-      Union& next = unions_[{c, n}];
-      next.energy = charts_[n].trial.Energy(charts_[n].area) + Energy(c);
+      double& least = unions_[{c, n}].least_energy;
+      least = Energy(n) + Energy(c);
       for (const auto& [x, other] : {std::pair{a, b}, std::pair{b, a}}) {
         const auto known = unions_.find({std::min(c, x), std::max(c, x)});
-        if (known != unions_.end()) next.energy = std::max(next.energy, known->second.energy + Energy(other));
+        if (known != unions_.end()) least = std::max(least, known->second.least_energy + Energy(other));
       }
       Push(c, n);
     }
   }
 
-  bool GoodOnFineSurface(const Chart& chart) {
-    PatchExtractor<MeshType> extractor(surface_, no_seams_);
-    const ChartTrial trial =
-        TryChart(extractor.Extract(FacesOf(chart.parts, fine_faces_)), bound_, [&] { progress_.Poll(); });
-    return trial.flat;
+  int Join(int a, int b, const ChartTrial& trial) {
+    Chart merged = Made(PartsOfBoth(a, b));
+    merged.trial = trial;
+    merged.first = a;
+    merged.second = b;
+    charts_.push_back(std::move(merged));
+    charts_[a].alive = charts_[b].alive = false;
+    --alive_;
+    return static_cast<int>(charts_.size()) - 1;
+  }
+
+  // Checks all new charts on the fine surface; returns those that fail.
+  std::vector<int> Unfit() {
+    std::vector<int> unverified;
+    std::vector<ChartPatch> patches;
+    for (int c = 0; c < static_cast<int>(charts_.size()); ++c) {
+      if (!charts_[c].alive || charts_[c].verified) continue;
+      unverified.push_back(c);
+      patches.push_back(parts_->FinePatch(charts_[c].parts));
+    }
+    std::vector<Flattening> flat(patches.size());
+    ParallelFor(static_cast<int>(patches.size()), progress_, [&](int k, const std::function<void()>& poll) {
+      double cut_length = 0;
+      patches[k] = Opened(patches[k], cut_length);
+      FlattenOptions options;
+      options.l2_bound = Bound();
+      flat[k] = Flatten(patches[k].mesh, options, poll);
+      flat[k].ok = flat[k].ok && flat[k].l2_stretch <= bound_ &&
+                   OverlappingPairs(OnGrid(flat[k].uv, patches[k].mesh.triangles), 1).empty();
+    });
+    std::vector<int> unfit;
+    for (size_t k = 0; k < unverified.size(); ++k) {
+      charts_[unverified[k]].verified = flat[k].ok;
+      if (flat[k].ok)
+        known_->Add(patches[k], std::move(flat[k]));
+      else
+        unfit.push_back(unverified[k]);
+    }
+    return unfit;
   }
 
   bool UndoBadMerges() {
-    bool undone = false;
-    for (int c = 0; c < static_cast<int>(charts_.size()); ++c) {
-      if (!charts_[c].alive || charts_[c].checked) continue;
-      charts_[c].checked = true;
-      if (GoodOnFineSurface(charts_[c])) continue;
+    const std::vector<int> unfit = Unfit();
+    for (int c : unfit) {
       const int a = charts_[c].first, b = charts_[c].second;
       unions_[{a, b}].refused = true;
       charts_[c].alive = false;
       charts_[a].alive = charts_[b].alive = true;
       ++alive_;
-      undone = true;
     }
-    return undone;
+    return !unfit.empty();
+  }
+
+  // Pairs that are above the bound together, but not with a dart or two that are shorter than their border.
+  void MergeWithDarts() {
+    constexpr double kWorthTrying = 1.4;
+    std::set<std::pair<int, int>> failed;
+    while (MayMergeMore()) {
+      FindBorders();
+      std::vector<std::tuple<double, int, int>> pairs;
+      for (int a = 0; a < static_cast<int>(charts_.size()); ++a)
+        for (const auto& [b, length] : charts_[a].borders) {
+          if (a > b || failed.count({a, b}) > 0) continue;
+          Union& both = unions_[{a, b}];
+          if (!both.tried) Record(a, b, TryChart(parts_->CoarsePatch(PartsOfBoth(a, b)), kNoBound, Poll()));
+          if (both.trial.stretch > 0 && both.trial.stretch < kWorthTrying)
+            pairs.push_back({both.trial.stretch, a, b});
+        }
+      std::sort(pairs.begin(), pairs.end());
+      bool merged = false;
+      for (const auto& [stretch, a, b] : pairs) {
+        if (!FlatWithDarts(a, b)) {
+          failed.insert({a, b});
+          continue;
+        }
+        charts_[Join(a, b, unions_[{a, b}].trial)].verified = true;
+        merged = true;
+        break;
+      }
+      if (!merged) return;
+    }
+  }
+
+  bool FlatWithDarts(int a, int b) {
+    const std::vector<int> both = PartsOfBoth(a, b);
+    for (const bool coarse : {true, false}) {
+      double cut_length = 0;
+      const ChartPatch open =
+          Opened(coarse ? parts_->CoarsePatch(both) : parts_->FinePatch(both), cut_length);
+      DartGoal goal;
+      goal.l2_stretch = coarse ? CoarseBound() : bound_;
+      goal.linf_stretch = kNoBound;
+      goal.longest = params_.max_dart_percent / 100 * open.Diagonal();
+      goal.most_length = charts_[a].borders[b] * parts_->Unit();
+      const DartedChart darted = CutStretchDarts(open, nullptr, goal, Poll());
+      if (!darted.flat.ok || darted.flat.l2_stretch > goal.l2_stretch) return false;
+      if (!OverlappingPairs(OnGrid(darted.flat.uv, darted.patch.mesh.triangles), 1).empty()) return false;
+    }
+    return true;
+  }
+
+  // Parts on a chart's border go to the neighbour where that lowers the cost. When the result doesn't hold on
+  // the fine surface, all stays as it was.
+  void MoveParts() {
+    const std::vector<Chart> before = charts_;
+    std::vector<int> owner = Owners();
+    constexpr int kSweeps = 2;
+    bool any = false, moved = true;
+    for (int sweep = 0; sweep < kSweeps && moved; ++sweep) {
+      moved = false;
+      std::vector<std::tuple<double, int, int>> moves;  // seam lost, part, a part of the other chart
+      for (int p = 0; p < parts_->Count(); ++p)
+        for (const auto& [q, length] : parts_->Borders(p))
+          if (owner[q] != owner[p]) moves.push_back({-SeamSaved(p, owner[q], owner), p, q});
+      std::sort(moves.begin(), moves.end());
+      for (const auto& [lost, p, q] : moves)
+        if (owner[p] != owner[q] && MovePart(p, owner[q], owner)) moved = any = true;
+    }
+    if (any && !Unfit().empty()) charts_ = before;
+  }
+
+  // By how much seams get shorter when part p goes to chart b.
+  double SeamSaved(int p, int b, const std::vector<int>& owner) const {
+    double saved = 0;
+    for (const auto& [q, length] : parts_->Borders(p)) {
+      if (owner[q] == b) saved += length;
+      if (owner[q] == owner[p]) saved -= length;
+    }
+    return saved;
+  }
+
+  bool MovePart(int p, int b, std::vector<int>& owner) {
+    constexpr double kMostLonger = 0.05, kGain = 1e-6;
+    const int a = owner[p];
+    const double saved = SeamSaved(p, b, owner);
+    if (saved < -kMostLonger || charts_[a].parts.size() < 2) return false;
+    std::vector<int> rest = charts_[a].parts, grown = charts_[b].parts;
+    rest.erase(std::find(rest.begin(), rest.end(), p));
+    grown.insert(std::lower_bound(grown.begin(), grown.end(), p), p);
+    if (!HangTogether(rest)) return false;
+    Chart less = Made(std::move(rest)), more = Made(std::move(grown));
+    more.trial = TryChart(parts_->CoarsePatch(more.parts), CoarseBound(), Poll());
+    const double before =
+        Energy(a) + Energy(b) + SeamCost(CutLength(charts_[a].trial) + CutLength(charts_[b].trial));
+    double after = more.trial.energy * more.area + SeamCost(CutLength(more.trial) - saved);
+    if (!more.trial.flat || after > before - kGain) return false;
+    less.trial = TryChart(parts_->CoarsePatch(less.parts), CoarseBound(), Poll());
+    after += less.trial.energy * less.area + SeamCost(CutLength(less.trial));
+    if (!less.trial.flat || after > before - kGain) return false;
+    for (auto* chart : {&less, &more}) {
+      for (int part : chart->parts) owner[part] = static_cast<int>(charts_.size());
+      charts_.push_back(std::move(*chart));
+    }
+    charts_[a].alive = charts_[b].alive = false;
+    return true;
+  }
+
+  bool HangTogether(const std::vector<int>& some) const {
+    std::set<int> left(some.begin(), some.end());
+    std::vector<int> stack{some.front()};
+    left.erase(some.front());
+    while (!stack.empty()) {
+      const int p = stack.back();
+      stack.pop_back();
+      for (const auto& [q, length] : parts_->Borders(p))
+        if (left.erase(q) > 0) stack.push_back(q);
+    }
+    return left.empty();
   }
 
   const SurfaceGraph<MeshType>& surface_;
   const Params& params_;
   Progress& progress_;
-  const SeamMask no_seams_;
-  PatchExtractor<SurfaceMesh>* coarse_ = nullptr;
-  std::vector<std::vector<int>> fine_faces_, coarse_faces_;  // of each part
-  std::map<std::pair<int, int>, double> part_borders_;       // lengths
-  std::vector<Chart> charts_;
+  KnownFlattenings* known_ = nullptr;
+  ChartParts<MeshType>* parts_ = nullptr;
+  std::vector<Chart> charts_;  // each merge adds one; those that are alive are a partition of the parts
   int alive_ = 0;
   double bound_ = 0;
   std::map<std::pair<int, int>, Union> unions_;
-  using Item = std::tuple<bool, double, int, int, bool>;  // not tiny, key, charts, whether it is exact
+  using Item = std::tuple<bool, double, int, int, bool>;  // not tiny, cost, charts, whether it is exact
   std::priority_queue<Item, std::vector<Item>, std::greater<>> queue_;
 };
 

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "common/parallel.h"
+#include "common/progress.h"
+#include "surface/chart_trial.h"
+#include "surface/charts.h"
+#include "surface/split_chart.h"
+
+namespace dcharts {
+
+/// Halves each chart that doesn't lie flat with an L2 stretch within `bound`, until all do (a single face is
+/// left as it is). Every face must have a chart.
+template <class MeshType>
+void SplitBadCharts(const SurfaceGraph<MeshType>& surface, double bound, Progress& progress, ChartIds& ids) {
+  const SeamMask no_seams(surface.FaceCount(), 0);
+  PatchExtractor<MeshType> extractor(surface, no_seams);
+  std::vector<char> good(surface.FaceCount(), 0);
+  for (bool again = true; again;) {
+    again = false;
+    std::vector<ChartPatch> patches;
+    for (const auto& faces : FacesOfCharts(ids))
+      if (!good[faces.front()]) patches.push_back(extractor.Extract(faces));
+    std::vector<char> bad(patches.size(), 0);
+    ParallelFor(static_cast<int>(patches.size()), progress, [&](int k, const std::function<void()>& poll) {
+      bad[k] = !TryChart(patches[k], bound, poll).flat;
+    });
+    int next_id = ChartCount(ids);
+    for (size_t k = 0; k < patches.size(); ++k) {
+      const std::vector<int>& faces = patches[k].faces;
+      if (!bad[k] || faces.size() < 2) {
+        for (int f : faces) good[f] = 1;
+        continue;
+      }
+      again = true;
+      const std::vector<int> side = Bisect(patches[k]);
+      for (size_t i = 0; i < faces.size(); ++i)
+        if (side[i] == 1) ids[faces[i]] = next_id;
+      ++next_id;
+    }
+    if (again) SplitAndCompact(surface, ids);
+  }
+}
+
+}  // namespace dcharts
