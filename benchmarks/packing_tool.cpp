@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The packing alone, for measuring.
-//   packing_tool charts MESH OUT CHART_COUNT          makes an atlas of the one mesh in MESH and writes its
-//   flat
-//                                                     charts
-//   packing_tool pack CHARTS OUT TEXTURE_SIZE PADDING packs flat charts into the unit square, OUT holds them
-//   placed;
-//                                                     prints cpu seconds and the padding that was kept
+//   packing_tool charts MESH OUT CHART_COUNT TARGET_CHARTS
+//       makes an atlas of the one mesh in MESH and writes its flat charts
+//   packing_tool pack CHARTS OUT TEXTURE_SIZE PADDING
+//       packs flat charts into the unit square; OUT holds them placed; prints cpu seconds and the padding
+//       kept
 // Files of charts are those of chart_file.h; flat charts have z = 0.
 #include <cstdio>
 #include <cstdlib>
@@ -26,7 +25,7 @@ namespace {
 using dcharts::ChartMesh;
 using dcharts::Points2;
 
-void WriteFlatCharts(const std::string& in, const std::string& out, int chart_count) {
+void WriteFlatCharts(const std::string& in, const std::string& out, int chart_count, int target_charts) {
   const ChartMesh mesh = dcharts::bench::ReadCharts(in).at(0);
   dcharts::SurfaceData data;
   for (Eigen::Index v = 0; v < mesh.positions.rows(); ++v)
@@ -35,6 +34,7 @@ void WriteFlatCharts(const std::string& in, const std::string& out, int chart_co
     data.faces.push_back({mesh.triangles(t, 0), mesh.triangles(t, 1), mesh.triangles(t, 2)});
   dcharts::Params params;
   params.chart_count = chart_count;
+  params.target_charts = target_charts;
   dcharts::Progress progress;
   const dcharts::SurfaceChange atlas = dcharts::TextureAtlas(data, params, progress);
 
@@ -100,16 +100,18 @@ void PackCharts(const std::string& in, const std::string& out, const dcharts::Pa
 int main(int count, char** arguments) {
   const std::vector<std::string> words(arguments + 1, arguments + count);
   try {
-    if (words.size() == 4 && words[0] == "charts") {
-      WriteFlatCharts(words[1], words[2], std::atoi(words[3].c_str()));
+    if (words.size() == 5 && words[0] == "charts") {
+      WriteFlatCharts(words[1], words[2], std::atoi(words[3].c_str()), std::atoi(words[4].c_str()));
     } else if (words.size() == 5 && words[0] == "pack") {
       dcharts::PackOptions options;
       options.texture_size = std::atoi(words[3].c_str());
       options.padding = std::atoi(words[4].c_str());
       PackCharts(words[1], words[2], options);
     } else {
-      std::fputs("usage: packing_tool charts MESH OUT CHART_COUNT | pack CHARTS OUT TEXTURE_SIZE PADDING\n",
-                 stderr);
+      std::fputs(
+          "usage: packing_tool charts MESH OUT CHART_COUNT TARGET_CHARTS | pack CHARTS OUT TEXTURE_SIZE "
+          "PADDING\n",
+          stderr);
       return 2;
     }
   } catch (const std::exception& error) {

@@ -163,7 +163,8 @@ class Packer {
       for (const Turn& turn : turns)
         shapes.back().push_back(CoveredCells(coarse * scale * turn.outline, coarse * margin));
     }
-    const int coarse_side = Squeeze(shapes, kCoarse + kCoarse / 40, kMoves, poll_, &moved);
+    const int moves = std::clamp(75000 / static_cast<int>(turns_.size()), 1500, 5000);
+    const int coarse_side = Squeeze(shapes, kCoarse + kCoarse / 40, moves, poll_, &moved);
     if (coarse_side == 0) return side;
     const int fine_side = coarse_side * kFine;
     std::vector<RowRuns> chosen;
@@ -198,7 +199,7 @@ class Packer {
   }
 
  private:
-  static constexpr int kCoarse = 256, kFine = 4, kMoves = 3000;
+  static constexpr int kCoarse = 256, kFine = 4;
 
   static std::pair<int, int> SizeClass(const RowRuns& cells) {
     constexpr double kStep = 0.15;

@@ -21,16 +21,17 @@ struct Placement {
 };
 
 struct Packing {
-  double scale = 1;  ///< the same for all charts
-  double padding =
-      0;  ///< texels that charts are at least apart: less than asked when there are too many of them
+  double scale = 1;    ///< the same for all charts
+  double padding = 0;  ///< texels that charts are at least apart, along rows or columns of texels, so that as
+                       ///< many texels stay free; less than asked when there are too many charts
   std::vector<Placement> placements;
 };
 
 /// Packs charts into the unit square by their true outlines, large ones first, each where it lets the square
-/// grow least (after [LPRM02], with all places of a grid tried instead of a horizon). One scale for all.
-/// `outlines`: per chart the end points of its boundary edges, two rows per edge. `poll` is called now and
-/// then and may throw. Throws Error when there are too many charts for the texture.
+/// grow least (after [LPRM02], with all places of a grid tried instead of a horizon); up to 200 charts are
+/// then squeezed together (packing_squeeze.h). One scale for all. `outlines`: per chart the end points of its
+/// boundary edges, two rows per edge. `poll` is called now and then and may throw. Throws Error when there
+/// are too many charts for the texture.
 Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
              const std::function<void()>& poll = {});
 

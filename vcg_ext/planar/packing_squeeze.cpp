@@ -252,7 +252,7 @@ class GuidedSearch {
     spots_[k] = best.spot;
   }
 
-  static constexpr int kBlock = 16, kUnit = 16, kMostWeight = 1 << 10, kTurnsTried = 5, kStartBound = 2;
+  static constexpr int kBlock = 16, kUnit = 16, kMostWeight = 1 << 10, kTurnsTried = 6, kStartBound = 2;
 
   const std::vector<std::vector<RowRuns>>& shapes_;
   const int count_;
@@ -272,7 +272,7 @@ class GuidedSearch {
 
 int Squeeze(const std::vector<std::vector<RowRuns>>& shapes, int side, int most_moves,
             const std::function<void()>& poll, std::vector<Spot>* spots) {
-  constexpr int kRounds = 20;
+  constexpr int kRounds = 30;  // without less overlap than before
   std::vector<Spot> tried = *spots;
   GuidedSearch search(shapes, side, most_moves, poll, tried);
   int found = 0, step = std::max(1, side / 50), target = side;
