@@ -11,9 +11,10 @@ import argparse
 import sys
 from pathlib import Path
 
+from common import MODELS_DIR
+
 from pymeshlab_dcharts.demo import run
 
-ROOT = Path(__file__).resolve().parent.parent
 MODELS = ("fandisk_9926", "horse", "gargoyle", "feline", "bunny")
 
 
@@ -21,7 +22,7 @@ def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("out", type=Path)
     options.add_argument("names", nargs="*", default=MODELS, metavar="MODEL", help="file names without .ply")
-    options.add_argument("--models", type=Path, default=ROOT.parent / "shared" / "meshes")
+    options.add_argument("--models", type=Path, default=MODELS_DIR)
     options = options.parse_args()
     for name in options.names:
         mesh = options.models / f"{name}.ply"

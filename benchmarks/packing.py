@@ -18,7 +18,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from flatten import ROOT, Bounds, read_charts, run_tool, write_mesh
+from common import MODELS_DIR, ROOT, Bounds, read_charts, run_tool, write_mesh
 
 import igl
 import numpy as np
@@ -164,7 +164,7 @@ def compare(name, charts, options, folder, bounds, least, most_seconds):
 
 def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    options.add_argument("--models", type=Path, default=ROOT.parent / "shared" / "meshes")
+    options.add_argument("--models", type=Path, default=MODELS_DIR)
     options.add_argument("--tool", type=Path, default=ROOT / "build" / "benchmarks" / "packing_tool")
     options.add_argument("--no-xatlas", action="store_true", help="our figures only")
     options = options.parse_args()
@@ -184,8 +184,7 @@ def main():
             run_tool(options.tool, "charts", folder / "mesh", folder / "charts", seeds, wanted)
             compare(case, read_charts(folder / "charts"), options, folder, bounds, least, seconds)
         compare("polygons", polygons(3000), options, folder, bounds, 0, 10)
-    print(f"{len(bounds.missed)} bounds missed", *bounds.missed, sep="\n  ")
-    return 1 if bounds.missed else 0
+    return bounds.report()
 
 
 if __name__ == "__main__":
