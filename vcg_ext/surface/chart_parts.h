@@ -20,7 +20,8 @@ class ChartParts {
  public:
   /// Every face must have a chart. `surface` must outlive the parts.
   ChartParts(const SurfaceGraph<MeshType>& surface, const ChartIds& ids)
-      : fine_faces_(FacesOfCharts(ids)),
+      : part_(ids),
+        fine_faces_(FacesOfCharts(ids)),
         area_(fine_faces_.size(), 0),
         borders_(fine_faces_.size()),
         unit_(std::sqrt(surface.TotalArea())),
@@ -42,6 +43,7 @@ class ChartParts {
   /// The neighbours of a part and how long the common borders are.
   const std::map<int, double>& Borders(int part) const { return borders_[part]; }
   double Unit() const { return unit_; }  ///< a length of 1 in model units
+  int PartOf(int face) const { return part_[face]; }
   const std::vector<int>& FineFaces(int part) const { return fine_faces_[part]; }
 
   ChartPatch CoarsePatch(const std::vector<int>& parts) {
@@ -60,6 +62,7 @@ class ChartParts {
     return faces;
   }
 
+  ChartIds part_;
   std::vector<std::vector<int>> fine_faces_;
   std::vector<double> area_;
   std::vector<std::map<int, double>> borders_;

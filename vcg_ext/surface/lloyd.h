@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "common/params.h"
@@ -52,8 +53,13 @@ class Lloyd {
 
   Segmentation Iterate(int count, int max_iterations) {
     std::vector<GrowingChart> charts = seeds_.FarthestPoints(count);
+    // The iterations may swing without end: they stop when nothing was gained for a while.
+    constexpr int kPatience = 6;
+    constexpr double kGain = 0.005;
     Segmentation best;
     ChartIds ids, previous;
+    double gained_from = std::numeric_limits<double>::infinity();
+    int without_gain = 0;
     for (int iteration = 1; iteration <= max_iterations; ++iteration) {
       progress_.Update(iteration / (iteration + 5.0));
       ids.assign(surface_.FaceCount(), kUnassigned);
@@ -62,6 +68,10 @@ class Lloyd {
       best.iterations = iteration;
       if (iteration > 1 && Reassigned(previous, ids) < params_.reassigned_percent / 100) break;
       previous = ids;
+      const bool gained = best.energy < (1 - kGain) * gained_from;
+      if (gained) gained_from = best.energy;
+      without_gain = gained ? 0 : without_gain + 1;
+      if (without_gain >= kPatience) break;
 
       std::vector<GrowingChart> next;
       for (const auto& faces : FacesOfCharts(ids))

@@ -62,7 +62,7 @@ class TrialMerger {
  private:
   static constexpr double kNoBound = std::numeric_limits<double>::infinity();
   // Energy that a seam as long as the side of a square with the surface's area may cost.
-  static constexpr double kSeamPrice = 0.0025;
+  static constexpr double kSeamPrice = 0.00225;
 
   struct Chart {
     std::vector<int> parts{};
@@ -199,6 +199,7 @@ class TrialMerger {
   void Push(int a, int b) {
     const Union& both = unions_[{a, b}];
     if (both.refused || (both.tried && !both.trial.flat)) return;
+    if (!apart_.empty() && !MayStandTogether(PartsOfBoth(a, b))) return;
     double saved = charts_[a].borders[b];
     if (both.tried)
       saved -= CutLength(both.trial) - CutLength(charts_[a].trial) - CutLength(charts_[b].trial);
@@ -210,7 +211,14 @@ class TrialMerger {
   }
 
   void AcceptPair(int a, int b) {
-    const Union& both = unions_[{a, b}];
+    Union& both = unions_[{a, b}];
+    // Near the bound the coarse chart doesn't tell.
+    constexpr double kClearlyWithin = 0.5;
+    if (both.trial.stretch - 1 > kClearlyWithin * (bound_ - 1) &&
+        !TryChart(parts_->FinePatch(PartsOfBoth(a, b)), bound_, Poll()).flat) {
+      both.refused = true;
+      return;
+    }
     const int n = Join(a, b, both.trial);
     for (int x : {a, b})
       for (const auto& [c, length] : charts_[x].borders)
@@ -241,8 +249,14 @@ class TrialMerger {
     return static_cast<int>(charts_.size()) - 1;
   }
 
+  // A chart that doesn't hold on the fine surface, and parts that overlap each other in it.
+  struct Failure {
+    int chart;
+    std::set<std::pair<int, int>> overlaps;
+  };
+
   // Checks all new charts on the fine surface; returns those that fail.
-  std::vector<int> Unfit() {
+  std::vector<Failure> Unfit() {
     std::vector<int> unverified;
     std::vector<ChartPatch> patches;
     for (int c = 0; c < static_cast<int>(charts_.size()); ++c) {
@@ -250,37 +264,68 @@ class TrialMerger {
       unverified.push_back(c);
       patches.push_back(parts_->FinePatch(charts_[c].parts));
     }
+    constexpr size_t kMostOverlaps = 1000;
     std::vector<Flattening> flat(patches.size());
+    std::vector<std::vector<std::pair<int, int>>> overlaps(patches.size());
     ParallelFor(static_cast<int>(patches.size()), progress_, [&](int k, const std::function<void()>& poll) {
       double cut_length = 0;
       patches[k] = Opened(patches[k], cut_length);
       FlattenOptions options;
       options.l2_bound = Bound();
       flat[k] = Flatten(patches[k].mesh, options, poll);
-      flat[k].ok = flat[k].ok && flat[k].l2_stretch <= bound_ &&
-                   OverlappingPairs(OnGrid(flat[k].uv, patches[k].mesh.triangles), 1).empty();
-    });
-    std::vector<int> unfit;
-    for (size_t k = 0; k < unverified.size(); ++k) {
-      charts_[unverified[k]].verified = flat[k].ok;
       if (flat[k].ok)
+        overlaps[k] = OverlappingPairs(OnGrid(flat[k].uv, patches[k].mesh.triangles), kMostOverlaps);
+    });
+    std::vector<Failure> failures;
+    for (size_t k = 0; k < unverified.size(); ++k) {
+      Chart& chart = charts_[unverified[k]];
+      chart.verified = flat[k].ok && flat[k].l2_stretch <= bound_ && overlaps[k].empty();
+      if (chart.verified) {
         known_->Add(patches[k], std::move(flat[k]));
-      else
-        unfit.push_back(unverified[k]);
+        continue;
+      }
+      failures.push_back({unverified[k], {}});
+      for (const auto& [i, j] : overlaps[k]) {
+        const int p = parts_->PartOf(patches[k].faces[i]), q = parts_->PartOf(patches[k].faces[j]);
+        if (p != q) failures.back().overlaps.insert({std::min(p, q), std::max(p, q)});
+      }
     }
-    return unfit;
+    return failures;
   }
 
+  // Parts that overlapped in one chart are not to come together again; for other failures the last merge is
+  // taken back.
   bool UndoBadMerges() {
-    const std::vector<int> unfit = Unfit();
-    for (int c : unfit) {
-      const int a = charts_[c].first, b = charts_[c].second;
-      unions_[{a, b}].refused = true;
-      charts_[c].alive = false;
-      charts_[a].alive = charts_[b].alive = true;
-      ++alive_;
+    const std::vector<Failure> failures = Unfit();
+    for (const Failure& failure : failures) {
+      apart_.insert(failure.overlaps.begin(), failure.overlaps.end());
+      if (failure.overlaps.empty()) {
+        const Chart& chart = charts_[failure.chart];
+        unions_[{chart.first, chart.second}].refused = true;
+      }
+      std::vector<int> stack{failure.chart};
+      while (!stack.empty()) {
+        const int c = stack.back();
+        stack.pop_back();
+        if (c != failure.chart && MayStandTogether(charts_[c].parts)) {
+          charts_[c].alive = true;
+          ++alive_;
+          continue;
+        }
+        if (c == failure.chart) --alive_;
+        charts_[c].alive = false;
+        stack.push_back(charts_[c].second);
+        stack.push_back(charts_[c].first);
+      }
     }
-    return !unfit.empty();
+    return !failures.empty();
+  }
+
+  bool MayStandTogether(const std::vector<int>& some) const {
+    return std::none_of(apart_.begin(), apart_.end(), [&](const std::pair<int, int>& pair) {
+      return std::binary_search(some.begin(), some.end(), pair.first) &&
+             std::binary_search(some.begin(), some.end(), pair.second);
+    });
   }
 
   // Pairs that are above the bound together, but not with a dart or two that are shorter than their border.
@@ -292,7 +337,7 @@ class TrialMerger {
       std::vector<std::tuple<double, int, int>> pairs;
       for (int a = 0; a < static_cast<int>(charts_.size()); ++a)
         for (const auto& [b, length] : charts_[a].borders) {
-          if (a > b || failed.count({a, b}) > 0) continue;
+          if (a > b || !MayStandTogether(PartsOfBoth(a, b)) || failed.count({a, b}) > 0) continue;
           Union& both = unions_[{a, b}];
           if (!both.tried) Record(a, b, TryChart(parts_->CoarsePatch(PartsOfBoth(a, b)), kNoBound, Poll()));
           if (both.trial.stretch > 0 && both.trial.stretch < kWorthTrying)
@@ -369,7 +414,7 @@ class TrialMerger {
     std::vector<int> rest = charts_[a].parts, grown = charts_[b].parts;
     rest.erase(std::find(rest.begin(), rest.end(), p));
     grown.insert(std::lower_bound(grown.begin(), grown.end(), p), p);
-    if (!HangTogether(rest)) return false;
+    if (!HangTogether(rest) || !MayStandTogether(grown)) return false;
     Chart less = Made(std::move(rest)), more = Made(std::move(grown));
     more.trial = TryChart(parts_->CoarsePatch(more.parts), CoarseBound(), Poll());
     const double before =
@@ -409,6 +454,7 @@ class TrialMerger {
   int alive_ = 0;
   double bound_ = 0;
   std::map<std::pair<int, int>, Union> unions_;
+  std::set<std::pair<int, int>> apart_;                   // parts that overlap when they are in one chart
   using Item = std::tuple<bool, double, int, int, bool>;  // not tiny, cost, charts, whether it is exact
   std::priority_queue<Item, std::vector<Item>, std::greater<>> queue_;
 };
