@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Does the result belong to the shape, and not to its triangles? The same surface with 4 and 16 times the faces, and with
+noise on its vertices, without any parameter."""
+
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import pymeshlab
+
+from common import ROOT
+
+from atlases import Atlas, evaluator, make
+
+OURS = ("plush", "torus", "cad_part")
+OTHERS = ("spot", "horse")
+NOISE = 0.05  # standard deviation of each coordinate, of the mean edge
+SHARE, LEAST = 0.2, 1  # chart counts may differ by the larger of the two
+L2 = 0.002
+
+
+def quartered(vertices, faces):
+    """Every face split in four at the middles of its edges: the same surface."""
+    edges = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    pairs, middle = np.unique(edges, axis=0, return_inverse=True)
+    a, b, c = faces.T
+    ab, bc, ca = middle.reshape(-1, 3).T + len(vertices)
+    parts = ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
+    return np.vstack([vertices, vertices[pairs].mean(axis=1)]), np.stack([np.stack(p, 1) for p in parts], 1).reshape(-1, 3)
+
+
+def noisy(vertices, faces):
+    mean_edge = np.linalg.norm(vertices[faces] - vertices[np.roll(faces, 1, axis=1)], axis=2).mean()
+    return vertices + np.random.default_rng(5).normal(0, NOISE * mean_edge, vertices.shape)
+
+
+def save(path, vertices, faces):
+    ms = pymeshlab.MeshSet()
+    ms.add_mesh(pymeshlab.Mesh(vertices, faces))
+    ms.save_current_mesh(str(path))
+    return path
+
+
+def laid_on(clean, atlas):
+    """The charts and cuts of an atlas of a mesh with other vertex places, flattened on the mesh file `clean`."""
+    vertices, faces, _ = evaluator.read_mesh(str(clean))
+    ms = pymeshlab.MeshSet()
+    ms.add_mesh(pymeshlab.Mesh(vertices, faces, f_scalar_array=atlas.chart_ids.astype(float),
+                               w_tex_coords_matrix=atlas.uv.reshape(-1, 2)))
+    ms.dcharts_parameterize()
+    ids = ms.current_mesh().face_scalar_array().round().astype(int)
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "atlas.obj"
+        ms.save_current_mesh(str(file), save_wedge_texcoord=True)
+        return Atlas(file, clean, ids, 0.0)
+
+
+def compare(case, faces, atlas, reference, l2, bounds):
+    near = abs(atlas.charts - reference.charts) <= max(LEAST, SHARE * reference.charts)
+    verdicts = [bounds.check(f"{case}: {atlas.charts} charts, not {reference.charts}", near),
+                bounds.check(f"{case}: L2 {l2:.4f}, not {reference.l2:.4f}", abs(l2 - reference.l2) <= L2),
+                bounds.check(f"{case}: not sound: {', '.join(atlas.flaws)}", not atlas.flaws)]
+    print(f"  {case:34} {faces:7} faces {atlas.charts:4} charts  L2 {l2:.4f}  Linf {atlas.linf:.3f}  seam {atlas.seam:6.2f}"
+          f"  {atlas.seconds:6.2f} s | count, L2, sound hold: {' '.join(verdicts)}", flush=True)
+
+
+def tessellation(models, bounds):
+    print("other triangles of the same shape: L2 of noisy charts is that of the same charts on the clean mesh")
+    meshes = [ROOT / "meshes" / f"{name}.ply" for name in OURS]
+    meshes += [path for path in (models / f"{name}.ply" for name in OTHERS) if path.exists()]
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for mesh in meshes:
+            vertices, faces, _ = evaluator.read_mesh(str(mesh))
+            clean = make(mesh)
+            compare(mesh.stem, len(faces), clean, clean, clean.l2, bounds)
+            atlas = make(save(folder / "noisy.ply", noisy(vertices, faces), faces))
+            compare(f"{mesh.stem}, noise {NOISE:.0%}", len(faces), atlas, clean, laid_on(mesh, atlas).l2, bounds)
+            for times in (4, 16):
+                vertices, faces = quartered(vertices, faces)
+                atlas = make(save(folder / "fine.ply", vertices, faces))
+                compare(f"{mesh.stem}, {times} times the faces", len(faces), atlas, clean, atlas.l2, bounds)
