@@ -48,6 +48,7 @@ class TrialMerger {
     ChartParts<MeshType> parts(surface_, ids);
     parts_ = &parts;
     Prepare();
+    ChooseOrder();
     Merge(Bound());
     if (MayMergeMore() && Bound() < kNoBound) MergeWithDarts();
     if (AboveTarget()) Merge(kNoBound);
@@ -113,15 +114,78 @@ class TrialMerger {
 
   void Prepare() {
     alive_ = parts_->Count();
-    std::vector<ChartPatch> patches;
+    bound_ = kNoBound;
+    std::vector<std::vector<int>> single(alive_);
+    for (int c = 0; c < alive_; ++c) single[c] = {c};
+    TryAll(single);
     for (int c = 0; c < alive_; ++c) {
       charts_.push_back(Made({c}));
       charts_.back().verified = true;  // by SplitBadCharts
-      patches.push_back(parts_->CoarsePatch({c}));
+      charts_.back().trial = Trial({c});
     }
-    ParallelFor(alive_, progress_, [&](int c, const std::function<void()>& poll) {
-      charts_[c].trial = TryChart(patches[c], kNoBound, poll);
+  }
+
+  // The trial of some parts together, each made once. One that was refused because of a bound is made again
+  // for a larger one.
+  const ChartTrial& Trial(const std::vector<int>& some) {
+    auto& [bound, trial] = trials_[some];
+    if (bound == 0 || (!trial.flat && bound < CoarseBound())) {
+      progress_.Poll();
+      bound = CoarseBound();
+      trial = TryChart(parts_->CoarsePatch(some), bound, Poll());
+    }
+    return trial;
+  }
+
+  // Makes trials ahead, on all threads.
+  void TryAll(const std::vector<std::vector<int>>& sets) {
+    std::vector<const std::vector<int>*> open;
+    std::vector<ChartPatch> patches;
+    for (const std::vector<int>& some : sets)
+      if (trials_.find(some) == trials_.end()) {
+        open.push_back(&some);
+        patches.push_back(parts_->CoarsePatch(some));
+      }
+    std::vector<ChartTrial> made(open.size());
+    ParallelFor(static_cast<int>(open.size()), progress_, [&](int k, const std::function<void()>& poll) {
+      made[k] = TryChart(patches[k], CoarseBound(), poll);
     });
+    for (size_t k = 0; k < open.size(); ++k) trials_[*open[k]] = {CoarseBound(), made[k]};
+  }
+
+  // Greedy merging depends on its order. Of some orders, which weigh seams differently, the one is taken that
+  // ends at the lowest cost.
+  void ChooseOrder() {
+    if (params_.target_charts == 0) return;
+    const std::vector<Chart> start = charts_;
+    const int start_count = alive_;
+    double least = kNoBound;
+    double best = 1;
+    for (const double factor : {1.0, 0.6, 1.6}) {
+      order_ = factor;
+      bound_ = Bound();
+      GreedyMerge();
+      const double cost = alive_ + TotalCost();  // fewer charts first: a merge may be out of reach
+      if (cost < least) {
+        least = cost;
+        best = factor;
+      }
+      charts_ = start;
+      alive_ = start_count;
+      unions_.clear();
+    }
+    order_ = best;
+  }
+
+  double TotalCost() const {
+    double energy = 0, length = 0;
+    for (int c = 0; c < static_cast<int>(charts_.size()); ++c) {
+      if (!charts_[c].alive) continue;
+      energy += Energy(c);
+      length += CutLength(charts_[c].trial);
+      for (const auto& border : charts_[c].borders) length += border.second / 2;
+    }
+    return energy + SeamCost(length);
   }
 
   // Merges until done, then has all charts checked on the fine surface; those that fail there are taken
@@ -131,17 +195,21 @@ class TrialMerger {
     for (auto& entry : unions_) entry.second.tried &= entry.second.trial.flat;  // by another bound
     constexpr int kRounds = 12;
     for (int round = 0; round < kRounds; ++round) {
-      StartQueue();
-      while (!queue_.empty() && MayMergeMore()) {
-        const auto [later, key, a, b, tried] = queue_.top();
-        queue_.pop();
-        if (!charts_[a].alive || !charts_[b].alive) continue;
-        if (!tried)
-          TryPair(a, b);
-        else if (params_.target_charts > 0 || bound_ < kNoBound || key < 0)
-          AcceptPair(a, b);
-      }
+      GreedyMerge();
       if (!UndoBadMerges()) return;
+    }
+  }
+
+  void GreedyMerge() {
+    StartQueue();
+    while (!queue_.empty() && MayMergeMore()) {
+      const auto [later, key, a, b, tried] = queue_.top();
+      queue_.pop();
+      if (!charts_[a].alive || !charts_[b].alive) continue;
+      if (!tried)
+        TryPair(a, b);
+      else if (params_.target_charts > 0 || bound_ < kNoBound || key < 0)
+        AcceptPair(a, b);
     }
   }
 
@@ -164,34 +232,28 @@ class TrialMerger {
   void StartQueue() {
     queue_ = {};
     FindBorders();
-    std::vector<std::pair<int, int>> untried;
-    std::vector<ChartPatch> patches;
+    std::vector<std::vector<int>> untried;
     for (int a = 0; a < static_cast<int>(charts_.size()); ++a)
       for (const auto& [b, length] : charts_[a].borders)
-        if (a < b && !unions_[{a, b}].tried) {
-          untried.push_back({a, b});
-          patches.push_back(parts_->CoarsePatch(PartsOfBoth(a, b)));
-        }
-    std::vector<ChartTrial> trials(untried.size());
-    ParallelFor(static_cast<int>(untried.size()), progress_, [&](int k, const std::function<void()>& poll) {
-      trials[k] = TryChart(patches[k], CoarseBound(), poll);
-    });
-    for (size_t k = 0; k < untried.size(); ++k) Record(untried[k].first, untried[k].second, trials[k]);
+        if (a < b && !unions_[{a, b}].tried) untried.push_back(PartsOfBoth(a, b));
+    TryAll(untried);
+    for (int a = 0; a < static_cast<int>(charts_.size()); ++a)
+      for (const auto& [b, length] : charts_[a].borders)
+        if (a < b && !unions_[{a, b}].tried) Record(a, b);
     for (int a = 0; a < static_cast<int>(charts_.size()); ++a)
       for (const auto& [b, length] : charts_[a].borders)
         if (a < b) Push(a, b);
   }
 
-  void Record(int a, int b, const ChartTrial& trial) {
+  void Record(int a, int b) {
     Union& both = unions_[{a, b}];
     both.tried = true;
-    both.trial = trial;
-    if (trial.flat) both.least_energy = trial.energy * (charts_[a].area + charts_[b].area);
+    both.trial = Trial(PartsOfBoth(a, b));
+    if (both.trial.flat) both.least_energy = both.trial.energy * (charts_[a].area + charts_[b].area);
   }
 
   void TryPair(int a, int b) {
-    progress_.Poll();
-    Record(a, b, TryChart(parts_->CoarsePatch(PartsOfBoth(a, b)), CoarseBound(), Poll()));
+    Record(a, b);
     Push(a, b);
   }
 
@@ -203,7 +265,7 @@ class TrialMerger {
     double saved = charts_[a].borders[b];
     if (both.tried)
       saved -= CutLength(both.trial) - CutLength(charts_[a].trial) - CutLength(charts_[b].trial);
-    const double key = both.least_energy - Energy(a) - Energy(b) - SeamCost(saved);
+    const double key = both.least_energy - Energy(a) - Energy(b) - order_ * SeamCost(saved);
     // A tiny chart is hard to place once the charts around it are large: it comes first.
     constexpr double kTiny = 0.003;
     const bool later = std::min(charts_[a].area, charts_[b].area) > kTiny;
@@ -339,7 +401,7 @@ class TrialMerger {
         for (const auto& [b, length] : charts_[a].borders) {
           if (a > b || !MayStandTogether(PartsOfBoth(a, b)) || failed.count({a, b}) > 0) continue;
           Union& both = unions_[{a, b}];
-          if (!both.tried) Record(a, b, TryChart(parts_->CoarsePatch(PartsOfBoth(a, b)), kNoBound, Poll()));
+          if (!both.tried) Record(a, b);
           if (both.trial.stretch > 0 && both.trial.stretch < kWorthTrying)
             pairs.push_back({both.trial.stretch, a, b});
         }
@@ -407,7 +469,7 @@ class TrialMerger {
   }
 
   bool MovePart(int p, int b, std::vector<int>& owner) {
-    constexpr double kMostLonger = 0.05, kGain = 1e-6;
+    constexpr double kMostLonger = 0.02, kGain = 1e-6;
     const int a = owner[p];
     const double saved = SeamSaved(p, b, owner);
     if (saved < -kMostLonger || charts_[a].parts.size() < 2) return false;
@@ -416,12 +478,12 @@ class TrialMerger {
     grown.insert(std::lower_bound(grown.begin(), grown.end(), p), p);
     if (!HangTogether(rest) || !MayStandTogether(grown)) return false;
     Chart less = Made(std::move(rest)), more = Made(std::move(grown));
-    more.trial = TryChart(parts_->CoarsePatch(more.parts), CoarseBound(), Poll());
+    more.trial = Trial(more.parts);
     const double before =
         Energy(a) + Energy(b) + SeamCost(CutLength(charts_[a].trial) + CutLength(charts_[b].trial));
     double after = more.trial.energy * more.area + SeamCost(CutLength(more.trial) - saved);
     if (!more.trial.flat || after > before - kGain) return false;
-    less.trial = TryChart(parts_->CoarsePatch(less.parts), CoarseBound(), Poll());
+    less.trial = Trial(less.parts);
     after += less.trial.energy * less.area + SeamCost(CutLength(less.trial));
     if (!less.trial.flat || after > before - kGain) return false;
     for (auto* chart : {&less, &more}) {
@@ -453,6 +515,8 @@ class TrialMerger {
   std::vector<Chart> charts_;  // each merge adds one; those that are alive are a partition of the parts
   int alive_ = 0;
   double bound_ = 0;
+  double order_ = 1;  // how much more seams weigh where the next merge is chosen than in the cost
+  std::map<std::vector<int>, std::pair<double, ChartTrial>> trials_;  // of parts: bound, trial
   std::map<std::pair<int, int>, Union> unions_;
   std::set<std::pair<int, int>> apart_;                   // parts that overlap when they are in one chart
   using Item = std::tuple<bool, double, int, int, bool>;  // not tiny, cost, charts, whether it is exact
