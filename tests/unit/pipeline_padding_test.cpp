@@ -68,7 +68,7 @@ int LeastGap(const std::vector<int>& owner, int size, int most) {
 TEST(Padding, ChartsAreApartInTheRasterizedTexture) {
   SurfaceData mesh = shapes::Plush(32);
   Params params;
-  params.chart_count = 12;
+  params.chart_count = params.target_charts = 12;
   Progress progress;
   const SurfaceChange first = TextureAtlas(mesh, params, progress);
   ASSERT_GT(*first.report.charts, 4);

@@ -30,7 +30,8 @@ CutResult CutOne(const TestSurface& surface, const Params& params = {}) {
   result.ids.assign(surface->FaceCount(), 0);
   SplitAndCompact(*surface, result.ids);
   Progress progress;
-  result.darts = ChartCutter<SurfaceMesh>(*surface, params, progress).Run(result.ids, result.seams);
+  KnownFlattenings known;
+  result.darts = ChartCutter<SurfaceMesh>(*surface, params, progress).Run(result.ids, result.seams, known);
   return result;
 }
 
@@ -39,9 +40,17 @@ Params Disks() {
   params.cut_to_disk = true;
   return params;
 }
+// Only the cuts that no chart can do without.
 Params NoDarts() {
   Params params;
   params.max_dart_percent = 0;
+  params.max_stretch = 0;
+  return params;
+}
+// Darts as in the paper.
+Params ByFittingError() {
+  Params params;
+  params.dart_by = DartMethod::kFittingError;
   return params;
 }
 
@@ -134,19 +143,19 @@ TEST(Cut, EveryShapeInOneChartBecomesFlat) {
        {shapes::CadPart(24), shapes::MoebiusStrip(24), shapes::Plush(32), shapes::TwoComponents(3),
         shapes::NonManifoldFin(4), shapes::BowTie(3), shapes::ClosedCylinder(12), shapes::Cube(1)}) {
     const TestSurface surface(mesh);
-    for (bool to_disk : {false, true}) {
-      Params params;
-      params.cut_to_disk = to_disk;
-      const CutResult result = CutOne(surface, params);
-      ExpectWellFormed(surface, result);
-      for (const ChartPatch& patch : Patches(surface, result)) {
-        EXPECT_EQ(GenusOf(patch), 0);
-        EXPECT_GE(LoopsOf(patch).size(), 1u);
-        if (to_disk) {
-          EXPECT_EQ(LoopsOf(patch).size(), 1u);
+    for (Params params : {Params(), ByFittingError()})
+      for (bool to_disk : {false, true}) {
+        params.cut_to_disk = to_disk;
+        const CutResult result = CutOne(surface, params);
+        ExpectWellFormed(surface, result);
+        for (const ChartPatch& patch : Patches(surface, result)) {
+          EXPECT_EQ(GenusOf(patch), 0);
+          EXPECT_GE(LoopsOf(patch).size(), 1u);
+          if (to_disk) {
+            EXPECT_EQ(LoopsOf(patch).size(), 1u);
+          }
         }
       }
-    }
   }
 }
 
@@ -233,28 +242,32 @@ TEST(Cut, SeveralHolesAreJoinedByTheShortestCuts) {
 
 TEST(Cut, OpenConeGetsOneDartToItsApex) {
   const TestSurface surface(shapes::OpenCone(24));
-  Params params;
-  params.max_dart_percent = 1000;
-  const CutResult result = CutOne(surface, params);
-  ExpectWellFormed(surface, result);
-  EXPECT_EQ(result.darts, 1);
-  EXPECT_EQ(EulerCharacteristic(Patches(surface, result)[0]), 1);
-  EXPECT_NEAR(CutLength(surface, result), std::sqrt(1.25), 0.01);
-  std::set<int> ends;
-  for (const auto& edge : CutEdges(surface, result)) ends.insert(edge.begin(), edge.end());
-  EXPECT_TRUE(std::any_of(ends.begin(), ends.end(), [&](int v) {
-    return surface.InputPosition(v)[2] > 1 - 1e-9;
-  })) << "the apex";
+  for (DartMethod method : {DartMethod::kFittingError, DartMethod::kMeasuredStretch}) {
+    Params params;
+    params.dart_by = method;
+    params.max_dart_percent = 1000;
+    const CutResult result = CutOne(surface, params);
+    ExpectWellFormed(surface, result);
+    EXPECT_EQ(result.darts, 1);
+    EXPECT_EQ(EulerCharacteristic(Patches(surface, result)[0]), 1);
+    EXPECT_NEAR(CutLength(surface, result), std::sqrt(1.25), 0.01);
+    std::set<int> ends;
+    for (const auto& edge : CutEdges(surface, result)) ends.insert(edge.begin(), edge.end());
+    EXPECT_TRUE(std::any_of(ends.begin(), ends.end(), [&](int v) {
+      return surface.InputPosition(v)[2] > 1 - 1e-9;
+    })) << "the apex";
+  }
 }
 
 TEST(Cut, DefaultsReachAConesApex) {
   const TestSurface surface(shapes::OpenCone());
   EXPECT_EQ(CutOne(surface).darts, 1);
+  EXPECT_EQ(CutOne(surface, ByFittingError()).darts, 1);
 }
 
 TEST(Cut, DartsOfASphericalCap) {
   const TestSurface surface(shapes::SphericalCap(12, 1.5));
-  Params params;
+  Params params = ByFittingError();
   params.dart_fitting_error = 0.05;
   const CutResult result = CutOne(surface, params);
   ExpectWellFormed(surface, result);
@@ -268,7 +281,7 @@ TEST(Cut, DartsOfASphericalCap) {
 
 TEST(Cut, NoDartsBelowTheErrorOrWithoutLength) {
   const TestSurface surface(shapes::SphericalCap(12, 1.0));
-  Params params;
+  Params params = ByFittingError();
   params.dart_fitting_error = 4;
   EXPECT_EQ(CutOne(surface, params).darts, 0);
   params.dart_fitting_error = 0;
@@ -281,7 +294,7 @@ TEST(Cut, DartsAreNoLongerThanAllowed) {
   const TestSurface surface(shapes::SphericalCap(12, 1.5));
   double last = 0;
   for (double percent : {5.0, 20.0, 60.0, 1000.0}) {
-    Params params;
+    Params params = ByFittingError();
     params.dart_fitting_error = 0;
     params.max_dart_percent = percent;
     const CutResult result = CutOne(surface, params);
@@ -301,7 +314,8 @@ TEST(Cut, DartsAreNoLongerThanAllowed) {
 
 TEST(Cut, FlatAndDevelopableChartsGetNoDarts) {
   for (const SurfaceData& mesh : {shapes::Grid(10, 10), shapes::Disk(8), shapes::OpenCylinder(24)})
-    EXPECT_EQ(CutOne(TestSurface(mesh)).darts, 0);
+    for (const Params& params : {Params(), ByFittingError()})
+      EXPECT_EQ(CutOne(TestSurface(mesh), params).darts, 0);
 }
 
 TEST(Cut, BordersBetweenChartsAreSeams) {
@@ -310,7 +324,8 @@ TEST(Cut, BordersBetweenChartsAreSeams) {
   result.ids = surface.Paint([](const auto& p) { return test::CubeSide(p, {0.5, 0.5, 0.5}, 0.5); });
   const ChartIds before = result.ids;
   Progress progress;
-  result.darts = ChartCutter<SurfaceMesh>(*surface, Params(), progress).Run(result.ids, result.seams);
+  KnownFlattenings known;
+  result.darts = ChartCutter<SurfaceMesh>(*surface, Params(), progress).Run(result.ids, result.seams, known);
   EXPECT_EQ(result.ids, before);
   EXPECT_EQ(result.darts, 0);
   EXPECT_EQ(result.seams, ChartBorders(*surface, before));

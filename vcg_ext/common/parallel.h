@@ -19,7 +19,8 @@ namespace dcharts {
 
 /// Calls work(k, poll) for k = 0..count-1, on several threads where OpenMP is there; each call must write
 /// only what is its own, so that the result doesn't depend on the number of threads. `poll` is for the work
-/// to call now and then: it asks the progress (on the calling thread) whether to go on. An exception stops
+/// to call now and then: it asks the progress (on the calling thread) whether to go on. A stage may have any
+/// number of such loops: each takes two thirds of what is left of the stage's progress. An exception stops
 /// all and is rethrown.
 template <class Work>
 void ParallelFor(int count, Progress& progress, const Work& work) {
@@ -27,12 +28,13 @@ void ParallelFor(int count, Progress& progress, const Work& work) {
   std::atomic<int> next{0}, done{0};
   std::mutex mutex;
   std::exception_ptr failure;
+  const double before = progress.Done(), share = 2.0 / 3 * (1 - before);
   const auto work_until_empty = [&](bool asks) {
     try {
       const std::function<void()> poll = [&] {
         if (stop) throw Cancelled();
         if (!asks) return;
-        progress.Update(static_cast<double>(done) / count);
+        progress.Update(before + share * done / count);
         progress.Poll();
       };
       for (int k = next++; k < count && !stop; k = next++) {

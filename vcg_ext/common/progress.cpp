@@ -15,11 +15,13 @@ void Progress::BeginStage(const char* name, double from, double to) {
   stage_ = name;
   from_ = from;
   to_ = to;
+  done_ = 0;
   Call(static_cast<int>(100 * from));
 }
 
 void Progress::Update(double fraction) {
-  const double whole = from_ + (to_ - from_) * std::clamp(fraction, 0.0, 1.0);
+  done_ = std::max(done_, std::min(fraction, 1.0));
+  const double whole = from_ + (to_ - from_) * done_;
   const int percent = static_cast<int>(100 * whole);
   if (percent != percent_) Call(percent);
 }

@@ -19,9 +19,11 @@ class Progress {
   /// work. Throws Cancelled.
   void BeginStage(const char* name, double from, double to);
 
-  /// `fraction` (0..1) of the current stage is done. Calls back only when the percentage moved. Throws
-  /// Cancelled.
+  /// `fraction` (0..1) of the current stage is done; less than was done before changes nothing. Calls back
+  /// only when the percentage moved. Throws Cancelled.
   void Update(double fraction);
+
+  double Done() const { return done_; }  ///< the fraction of the current stage
 
   /// Asks whether to go on without moving the percentage. Throws Cancelled.
   void Poll();
@@ -34,7 +36,7 @@ class Progress {
   Callback callback_;
   Logger logger_;
   std::string stage_;
-  double from_ = 0, to_ = 1;
+  double from_ = 0, to_ = 1, done_ = 0;
   int percent_ = 0;
 };
 
