@@ -21,8 +21,8 @@ namespace dcharts {
 
 /// Lengths are those of a surface of area 1.
 struct GraphCutOptions {
-  double band = 0.05;            ///< how far from the old border the new one may lie, > 0
-  double length_weight = 0.003;  ///< price of border length against area times fitting error, > 0
+  double band = 0.08;            ///< how far from the old border the new one may lie, > 0
+  double length_weight = 0.006;  ///< price of border length against area times fitting error, > 0
   /// A chart's proxy is fitted to its faces up to here from the common border, > 0: charts, large ones above
   /// all, are cones near each border rather than as a whole.
   double fit_radius = 0.1;

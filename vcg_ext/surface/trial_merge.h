@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <queue>
@@ -48,11 +49,10 @@ class TrialMerger {
     ChartParts<MeshType> parts(surface_, ids);
     parts_ = &parts;
     Prepare();
-    ChooseOrder();
     Merge(Bound());
     if (MayMergeMore() && Bound() < kNoBound) MergeWithDarts();
     if (AboveTarget()) Merge(kNoBound);
-    MoveParts();
+    Improve();
     for (int c = 0; c < static_cast<int>(charts_.size()); ++c)
       if (charts_[c].alive)
         for (int part : charts_[c].parts)
@@ -153,41 +153,6 @@ class TrialMerger {
     for (size_t k = 0; k < open.size(); ++k) trials_[*open[k]] = {CoarseBound(), made[k]};
   }
 
-  // Greedy merging depends on its order. Of some orders, which weigh seams differently, the one is taken that
-  // ends at the lowest cost.
-  void ChooseOrder() {
-    if (params_.target_charts == 0) return;
-    const std::vector<Chart> start = charts_;
-    const int start_count = alive_;
-    double least = kNoBound;
-    double best = 1;
-    for (const double factor : {1.0, 0.6, 1.6}) {
-      order_ = factor;
-      bound_ = Bound();
-      GreedyMerge();
-      const double cost = alive_ + TotalCost();  // fewer charts first: a merge may be out of reach
-      if (cost < least) {
-        least = cost;
-        best = factor;
-      }
-      charts_ = start;
-      alive_ = start_count;
-      unions_.clear();
-    }
-    order_ = best;
-  }
-
-  double TotalCost() const {
-    double energy = 0, length = 0;
-    for (int c = 0; c < static_cast<int>(charts_.size()); ++c) {
-      if (!charts_[c].alive) continue;
-      energy += Energy(c);
-      length += CutLength(charts_[c].trial);
-      for (const auto& border : charts_[c].borders) length += border.second / 2;
-    }
-    return energy + SeamCost(length);
-  }
-
   // Merges until done, then has all charts checked on the fine surface; those that fail there are taken
   // apart, and merging goes on with other pairs.
   void Merge(double bound) {
@@ -265,7 +230,7 @@ class TrialMerger {
     double saved = charts_[a].borders[b];
     if (both.tried)
       saved -= CutLength(both.trial) - CutLength(charts_[a].trial) - CutLength(charts_[b].trial);
-    const double key = both.least_energy - Energy(a) - Energy(b) - order_ * SeamCost(saved);
+    const double key = both.least_energy - Energy(a) - Energy(b) - SeamCost(saved);
     // A tiny chart is hard to place once the charts around it are large: it comes first.
     constexpr double kTiny = 0.003;
     const bool later = std::min(charts_[a].area, charts_[b].area) > kTiny;
@@ -438,58 +403,148 @@ class TrialMerger {
     return true;
   }
 
-  // Parts on a chart's border go to the neighbour where that lowers the cost. When the result doesn't hold on
-  // the fine surface, all stays as it was.
-  void MoveParts() {
+  // Greedy merging ends where no merge helps, other steps still do. When the result doesn't hold on the fine
+  // surface, all stays as it was.
+  void Improve() {
     const std::vector<Chart> before = charts_;
     std::vector<int> owner = Owners();
-    constexpr int kSweeps = 2;
-    bool any = false, moved = true;
-    for (int sweep = 0; sweep < kSweeps && moved; ++sweep) {
-      moved = false;
-      std::vector<std::tuple<double, int, int>> moves;  // seam lost, part, a part of the other chart
-      for (int p = 0; p < parts_->Count(); ++p)
-        for (const auto& [q, length] : parts_->Borders(p))
-          if (owner[q] != owner[p]) moves.push_back({-SeamSaved(p, owner[q], owner), p, q});
-      std::sort(moves.begin(), moves.end());
-      for (const auto& [lost, p, q] : moves)
-        if (owner[p] != owner[q] && MovePart(p, owner[q], owner)) moved = any = true;
+    constexpr int kMostSteps = 20;
+    bool any = false;
+    for (int step = 0; step < kMostSteps; ++step) {
+      const bool moved = MoveGroups(before, owner);
+      const bool swapped = params_.target_charts > 0 && MergeAndSplit(before, owner);
+      if (!moved && !swapped) break;
+      any = true;
     }
     if (any && !Unfit().empty()) charts_ = before;
   }
 
-  // By how much seams get shorter when part p goes to chart b.
-  double SeamSaved(int p, int b, const std::vector<int>& owner) const {
-    double saved = 0;
-    for (const auto& [q, length] : parts_->Borders(p)) {
-      if (owner[q] == b) saved += length;
-      if (owner[q] == owner[p]) saved -= length;
+  // Groups of parts that were charts once go from a chart to a neighbour where that lowers the cost.
+  bool MoveGroups(const std::vector<Chart>& groups, std::vector<int>& owner) {
+    std::vector<std::tuple<double, int, int>> moves;  // seam lost, group, a part of the other chart
+    for (int group = 0; group < static_cast<int>(groups.size()); ++group) {
+      std::map<int, int> others;  // chart: a part of it
+      for (int p : groups[group].parts)
+        for (const auto& border : parts_->Borders(p)) others.emplace(owner[border.first], border.first);
+      for (const auto& [b, q] : others)
+        if (IsMovable(groups[group].parts, b, owner))
+          moves.push_back({-SeamSaved(groups[group].parts, b, owner), group, q});
     }
+    std::sort(moves.begin(), moves.end());
+    bool moved = false;
+    for (const auto& [lost, group, q] : moves) moved |= MoveGroup(groups[group].parts, owner[q], owner);
+    return moved;
+  }
+
+  // Two charts are merged and another is split, where that lowers the cost.
+  bool MergeAndSplit(const std::vector<Chart>& groups, std::vector<int>& owner) {
+    FindBorders();
+    using Step = std::tuple<double, int, int>;  // cost, charts or chart and group
+    std::vector<Step> merges, splits;
+    for (int a = 0; a < static_cast<int>(charts_.size()); ++a) {
+      for (const auto& [b, length] : charts_[a].borders) {
+        if (a > b || !MayStandTogether(PartsOfBoth(a, b))) continue;
+        const ChartTrial& both = Trial(PartsOfBoth(a, b));
+        if (!both.flat) continue;
+        const double cut = CutLength(both) - CutLength(charts_[a].trial) - CutLength(charts_[b].trial);
+        merges.push_back({both.energy * (charts_[a].area + charts_[b].area) - Energy(a) - Energy(b) -
+                              SeamCost(length - cut),
+                          a, b});
+      }
+    }
+    for (int group = 0; group < static_cast<int>(groups.size()); ++group) {
+      const std::vector<int>& some = groups[group].parts;
+      const int c = owner[some.front()];
+      if (!IsMovable(some, -1, owner)) continue;
+      const std::vector<int> rest = Without(charts_[c].parts, some);
+      if (!HangTogether(rest)) continue;
+      const ChartTrial &one = Trial(some), &other = Trial(rest);
+      if (!one.flat || !other.flat) continue;
+      const double cut = CutLength(one) + CutLength(other) - CutLength(charts_[c].trial);
+      splits.push_back({one.energy * groups[group].area +
+                            other.energy * (charts_[c].area - groups[group].area) - Energy(c) +
+                            SeamCost(cut - SeamSaved(some, -1, owner)),
+                        c, group});
+    }
+    std::sort(merges.begin(), merges.end());
+    std::sort(splits.begin(), splits.end());
+    constexpr double kGain = 1e-5;
+    double best = -kGain;
+    const Step *merge = nullptr, *split = nullptr;
+    for (const Step& m : merges)
+      for (const Step& s : splits) {
+        const int c = std::get<1>(s);
+        if (std::get<0>(m) + std::get<0>(s) >= best) break;
+        if (c == std::get<1>(m) || c == std::get<2>(m)) continue;
+        best = std::get<0>(m) + std::get<0>(s);
+        merge = &m;
+        split = &s;
+      }
+    if (!merge) return false;
+    const auto [merge_cost, a, b] = *merge;
+    const auto [split_cost, c, group] = *split;
+    const std::vector<int> some = groups[group].parts;
+    for (const std::vector<int>& made : {PartsOfBoth(a, b), some, Without(charts_[c].parts, some)})
+      Replace(made, owner);
+    charts_[a].alive = charts_[b].alive = charts_[c].alive = false;
+    return true;
+  }
+
+  static std::vector<int> Without(const std::vector<int>& all, const std::vector<int>& some) {
+    std::vector<int> rest;
+    std::set_difference(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(rest));
+    return rest;
+  }
+
+  // A new chart that takes the place of those its parts were in.
+  void Replace(const std::vector<int>& of_parts, std::vector<int>& owner) {
+    Chart chart = Made(of_parts);
+    chart.trial = Trial(of_parts);
+    for (int part : of_parts) owner[part] = static_cast<int>(charts_.size());
+    charts_.push_back(std::move(chart));
+  }
+
+  // All of one chart, which is not `b` and has more parts.
+  bool IsMovable(const std::vector<int>& group, int b, const std::vector<int>& owner) const {
+    const int a = owner[group.front()];
+    return a != b && charts_[a].parts.size() > group.size() &&
+           std::all_of(group.begin(), group.end(), [&](int p) { return owner[p] == a; });
+  }
+
+  // By how much seams get shorter when a group of parts goes to chart b.
+  double SeamSaved(const std::vector<int>& group, int b, const std::vector<int>& owner) const {
+    double saved = 0;
+    for (int p : group)
+      for (const auto& [q, length] : parts_->Borders(p)) {
+        if (owner[q] == b) saved += length;
+        if (owner[q] == owner[p] && !std::binary_search(group.begin(), group.end(), q)) saved -= length;
+      }
     return saved;
   }
 
-  bool MovePart(int p, int b, std::vector<int>& owner) {
+  bool MoveGroup(const std::vector<int>& group, int b, std::vector<int>& owner) {
     constexpr double kMostLonger = 0.02, kGain = 1e-6;
-    const int a = owner[p];
-    const double saved = SeamSaved(p, b, owner);
-    if (saved < -kMostLonger || charts_[a].parts.size() < 2) return false;
-    std::vector<int> rest = charts_[a].parts, grown = charts_[b].parts;
-    rest.erase(std::find(rest.begin(), rest.end(), p));
-    grown.insert(std::lower_bound(grown.begin(), grown.end(), p), p);
+    if (!IsMovable(group, b, owner)) return false;
+    const int a = owner[group.front()];
+    const double saved = SeamSaved(group, b, owner);
+    if (saved < -kMostLonger) return false;
+    const std::vector<int> rest = Without(charts_[a].parts, group), &to = charts_[b].parts;
+    std::vector<int> grown;
+    std::merge(to.begin(), to.end(), group.begin(), group.end(), std::back_inserter(grown));
     if (!HangTogether(rest) || !MayStandTogether(grown)) return false;
-    Chart less = Made(std::move(rest)), more = Made(std::move(grown));
-    more.trial = Trial(more.parts);
     const double before =
         Energy(a) + Energy(b) + SeamCost(CutLength(charts_[a].trial) + CutLength(charts_[b].trial));
-    double after = more.trial.energy * more.area + SeamCost(CutLength(more.trial) - saved);
-    if (!more.trial.flat || after > before - kGain) return false;
-    less.trial = Trial(less.parts);
-    after += less.trial.energy * less.area + SeamCost(CutLength(less.trial));
-    if (!less.trial.flat || after > before - kGain) return false;
-    for (auto* chart : {&less, &more}) {
-      for (int part : chart->parts) owner[part] = static_cast<int>(charts_.size());
-      charts_.push_back(std::move(*chart));
-    }
+    const auto cost = [&](const ChartTrial& trial, const std::vector<int>& some) {
+      return trial.energy * Made(some).area + SeamCost(CutLength(trial));
+    };
+    const ChartTrial& more = Trial(grown);
+    double after = cost(more, grown) - SeamCost(saved);
+    if (!more.flat || after > before - kGain) return false;
+    const ChartTrial& less = Trial(rest);
+    after += cost(less, rest);
+    if (!less.flat || after > before - kGain) return false;
+    Replace(rest, owner);
+    Replace(grown, owner);
     charts_[a].alive = charts_[b].alive = false;
     return true;
   }
@@ -515,7 +570,6 @@ class TrialMerger {
   std::vector<Chart> charts_;  // each merge adds one; those that are alive are a partition of the parts
   int alive_ = 0;
   double bound_ = 0;
-  double order_ = 1;  // how much more seams weigh where the next merge is chosen than in the cost
   std::map<std::vector<int>, std::pair<double, ChartTrial>> trials_;  // of parts: bound, trial
   std::map<std::pair<int, int>, Union> unions_;
   std::set<std::pair<int, int>> apart_;                   // parts that overlap when they are in one chart
