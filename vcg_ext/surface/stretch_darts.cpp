@@ -2,14 +2,18 @@
 #include "surface/stretch_darts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "planar/distortion.h"
 #include "planar/overlap.h"
+#include "surface/open_chart.h"
 #include "surface/patch_paths.h"
 
 namespace dcharts {
 namespace {
+
+constexpr int kMostDarts = 12;
 
 // Area-weighted mean of the worst stretch of the faces around each vertex.
 std::vector<double> VertexStretch(const ChartPatch& patch, const Points2& uv) {
@@ -48,18 +52,77 @@ bool Helps(const Flattening& before, const Flattening& after, double length, con
          kLinfPerUnit * length / goal.unit;
 }
 
+// The vertices at which a chart of flat and rolled parts comes to a point; none when it is curved elsewhere,
+// or in too many places.
+std::vector<int> ConePoints(const ChartPatch& patch, const PatchPaths& paths) {
+  constexpr double kPi = 3.14159265358979323846, kPoint = 0.02, kFlat = 1e-4;
+  std::vector<int> points;
+  const std::vector<double> angle = AngleSums(patch);
+  for (int v = 0; v < patch.VertexCount(); ++v) {
+    if (paths.OnBoundary(v)) continue;
+    const double curvature = std::abs(2 * kPi - angle[v]);
+    if (curvature > kPoint) points.push_back(v);
+    if ((curvature > kFlat && curvature <= kPoint) || points.size() > kMostDarts) return {};
+  }
+  return points;
+}
+
+// A dart to each cone point, when the chart has no stretch at all then and that is worth the length: one by
+// one they would not lower the worst stretch.
+bool CutConePoints(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart) {
+  constexpr double kL2PerUnit = 0.005, kNoStretch = 1e-5;
+  std::vector<int> points = ConePoints(chart.patch, PatchPaths(chart.patch));
+  if (points.empty()) return false;
+  DartedChart darted{{}, 0, chart.patch, {}};
+  std::vector<int> corner_of;  // a vertex may get another number by a cut, a corner doesn't
+  for (int v : points) {
+    int h = 0;
+    while (chart.patch.Vertex(h) != v) ++h;
+    corner_of.push_back(h);
+  }
+  double total_length = 0;
+  while (!corner_of.empty()) {
+    PatchPaths paths(darted.patch);
+    std::vector<int> border;
+    for (int v = 0; v < darted.patch.VertexCount(); ++v)
+      if (paths.OnBoundary(v)) border.push_back(v);
+    paths.Run(border, true);
+    const auto distance = [&](int h) { return paths.Distance(darted.patch.Vertex(h)); };
+    const auto nearest = std::min_element(corner_of.begin(), corner_of.end(),
+                                          [&](int g, int h) { return distance(g) < distance(h); });
+    const double length = distance(*nearest);
+    total_length += length;
+    if (!(length <= goal.longest && total_length <= goal.most_length)) return false;
+    const std::vector<int> cut = paths.Path(darted.patch.Vertex(*nearest));
+    darted.edges.insert(darted.edges.end(), cut.begin(), cut.end());
+    darted.count += !cut.empty();  // a dart may have run through it
+    darted.patch = CutOpen(darted.patch, cut);
+    corner_of.erase(nearest);
+  }
+  FlattenOptions options;
+  options.l2_bound = goal.l2_stretch;
+  darted.flat = Flatten(darted.patch.mesh, options, poll);
+  const double share = chart.patch.Area() / (goal.unit * goal.unit);
+  if (!darted.flat.ok || darted.flat.l2_stretch > 1 + kNoStretch ||
+      (chart.flat.l2_stretch - darted.flat.l2_stretch) * share < kL2PerUnit * total_length / goal.unit ||
+      !OverlappingPairs(OnGrid(darted.flat.uv, darted.patch.mesh.triangles), 1).empty())
+    return false;
+  chart = std::move(darted);
+  return true;
+}
+
 }  // namespace
 
 DartedChart CutStretchDarts(const ChartPatch& patch, const Flattening* known, const DartGoal& goal,
                             const std::function<void()>& poll) {
-  constexpr int kMostDarts = 12, kMostFailures = 3;
+  constexpr int kMostFailures = 3;
   DartedChart chart;
   chart.patch = patch;
   FlattenOptions options;
   options.l2_bound = goal.l2_stretch;
   chart.flat = known ? *known : Flatten(patch.mesh, options, poll);
   double total_length = 0;
-  if (!chart.flat.ok) return chart;
+  if (!chart.flat.ok || CutConePoints(goal, poll, chart)) return chart;
   std::vector<char> hopeless(patch.faces.size(), 0);  // darts to these faces were of no use
   for (int failures = 0;
        chart.count < kMostDarts && failures < kMostFailures && !Reached(chart.flat, goal);) {

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/chart_trial.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "surface/patch_paths.h"
+#include "surface_fixture.h"
+
+namespace dcharts {
+namespace {
+
+using test::TestSurface;
+
+constexpr double kNoBound = std::numeric_limits<double>::infinity();
+
+ChartTrial Trial(const TestSurface& surface, double bound = kNoBound) {
+  return TryChart(surface.WholePatch(), bound, [] {});
+}
+
+TEST(ChartTrial, FlatShapesCostNothing) {
+  for (const SurfaceData& mesh : {shapes::Grid(8, 6), shapes::Disk(6), shapes::PlaneWithHole(12)}) {
+    const ChartTrial trial = Trial(TestSurface(mesh), 1.0001);
+    EXPECT_TRUE(trial.flat);
+    EXPECT_NEAR(trial.stretch, 1, 1e-6);
+    EXPECT_NEAR(trial.energy, 0, 1e-6);
+    EXPECT_EQ(trial.cut_length, 0);
+  }
+}
+
+TEST(ChartTrial, ACylinderCostsItsCut) {
+  const TestSurface surface(shapes::OpenCylinder(24));
+  const ChartTrial trial = Trial(surface, 1.0001);
+  EXPECT_TRUE(trial.flat);
+  EXPECT_NEAR(trial.stretch, 1, 1e-6);
+  EXPECT_NEAR(trial.cut_length / surface.Scale(), 1, 1e-9);
+}
+
+TEST(ChartTrial, ClosedSurfacesAreOpened) {
+  for (const SurfaceData& mesh : {shapes::Torus(10), shapes::Sphere(5), shapes::DoubleTorus(32)}) {
+    const TestSurface surface(mesh);
+    double cut_length = 0;
+    const ChartPatch open = Opened(surface.WholePatch(), cut_length);
+    EXPECT_GE(LoopsOf(open).size(), 1u);
+    EXPECT_EQ(2 - static_cast<int>(LoopsOf(open).size()), EulerCharacteristic(open)) << "no handle";
+    EXPECT_GT(cut_length, 0);
+    EXPECT_EQ(Trial(surface).cut_length, cut_length);
+  }
+}
+
+TEST(ChartTrial, TheBoundDecides) {
+  const TestSurface surface(shapes::SphericalCap(8, 1.0));
+  const ChartTrial free = Trial(surface);
+  ASSERT_TRUE(free.flat);
+  EXPECT_GT(free.stretch, 1.001);
+  EXPECT_GT(free.energy, 0);
+  EXPECT_TRUE(Trial(surface, free.stretch + 1e-6).flat);
+  EXPECT_FALSE(Trial(surface, 1 + (free.stretch - 1) / 2).flat);
+}
+
+TEST(ChartTrial, ALargerCapCostsMore) {
+  double last = 0;
+  for (double angle : {0.3, 0.6, 0.9, 1.2}) {
+    const double energy = Trial(TestSurface(shapes::SphericalCap(8, angle))).energy;
+    EXPECT_GT(energy, last) << angle;
+    last = energy;
+  }
+}
+
+// A ramp that winds around an axis one and a half times: laid flat without stretch, it lies on itself.
+TEST(ChartTrial, WhatOverlapsItselfIsNotFlat) {
+  constexpr double kPi = 3.14159265358979323846;
+  for (double turns : {0.5, 1.5}) {
+    SurfaceData mesh = shapes::Grid(60, 3);
+    for (auto& p : mesh.vertices) {
+      const double angle = 2 * kPi * turns * p[0], radius = 1 + 0.5 * p[1];
+      p = {radius * std::cos(angle), radius * std::sin(angle), 0.05 * angle};
+    }
+    const ChartTrial trial = Trial(TestSurface(mesh));
+    EXPECT_EQ(trial.flat, turns < 1);
+    EXPECT_LT(trial.stretch, 1.01);
+    EXPECT_GE(trial.stretch, 1);
+  }
+}
+
+}  // namespace
+}  // namespace dcharts

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/stretch_darts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "planar/overlap.h"
+#include "surface/patch_paths.h"
+#include "surface_fixture.h"
+
+namespace dcharts {
+namespace {
+
+using test::TestSurface;
+
+DartGoal Goal(double l2, double linf, double longest) {
+  DartGoal goal;
+  goal.l2_stretch = l2;
+  goal.linf_stretch = linf;
+  goal.longest = longest;
+  return goal;
+}
+
+double Length(const ChartPatch& patch, const std::vector<int>& edges) {
+  double length = 0;
+  for (int h : edges) length += patch.Length(h);
+  return length;
+}
+
+bool Overlaps(const DartedChart& chart) {
+  return !OverlappingPairs(OnGrid(chart.flat.uv, chart.patch.mesh.triangles), 1).empty();
+}
+
+TEST(StretchDarts, AConeGetsOneToItsApex) {
+  const TestSurface surface(shapes::OpenCone(24));
+  const ChartPatch patch = surface.WholePatch();
+  const DartedChart chart = CutStretchDarts(patch, nullptr, Goal(1.01, 1.3, patch.Diagonal()), [] {});
+  ASSERT_TRUE(chart.flat.ok);
+  EXPECT_EQ(chart.count, 1);
+  EXPECT_NEAR(chart.flat.l2_stretch, 1, 1e-6);
+  EXPECT_NEAR(chart.flat.linf_stretch, 1, 1e-4);
+  EXPECT_FALSE(Overlaps(chart));
+  EXPECT_NEAR(Length(patch, chart.edges) / surface.Scale(), std::sqrt(1.25), 0.01) << "straight up a side";
+  bool apex = false;
+  for (int h : chart.edges)
+    for (int k : {h, Next(h)})
+      apex |= surface.InputPosition(surface->Vertex(patch.SurfaceHalfEdge(k)))[2] > 1 - 1e-9;
+  EXPECT_TRUE(apex);
+}
+
+// Four equal corners: the worst stretch falls only when there is a dart to each.
+TEST(StretchDarts, ABoxWithoutLidGetsOneToEachCorner) {
+  SurfaceData mesh = shapes::Cube(8);
+  std::vector<std::array<int, 3>> faces;
+  for (const auto& face : mesh.faces) {
+    const bool lid =
+        std::all_of(face.begin(), face.end(), [&](int v) { return mesh.vertices[v][2] > 1 - 1e-9; });
+    if (!lid) faces.push_back(face);
+  }
+  mesh.faces = faces;
+  const TestSurface surface(mesh);
+  const ChartPatch patch = surface.WholePatch();
+  const DartedChart chart = CutStretchDarts(patch, nullptr, Goal(1.01, 1.3, patch.Diagonal()), [] {});
+  EXPECT_EQ(chart.count, 4);
+  EXPECT_NEAR(Length(patch, chart.edges) / surface.Scale(), 4, 1e-9) << "the upright edges";
+  EXPECT_NEAR(chart.flat.l2_stretch, 1, 1e-6);
+  EXPECT_FALSE(Overlaps(chart));
+}
+
+TEST(StretchDarts, ACapGetsFlatterByEach) {
+  const TestSurface surface(shapes::SphericalCap(12, 1.5));
+  const ChartPatch patch = surface.WholePatch();
+  const Flattening before = Flatten(patch.mesh);
+  const DartedChart chart = CutStretchDarts(patch, nullptr, Goal(1.01, 1.3, patch.Diagonal()), [] {});
+  ASSERT_TRUE(chart.flat.ok);
+  EXPECT_GE(chart.count, 1);
+  EXPECT_LT(chart.flat.l2_stretch, before.l2_stretch);
+  EXPECT_FALSE(Overlaps(chart));
+  // Darts open nothing: one boundary loop, cut in from the rim.
+  EXPECT_EQ(LoopsOf(chart.patch).size(), 1u);
+  EXPECT_EQ(EulerCharacteristic(chart.patch), 1);
+  EXPECT_EQ(chart.flat.uv.rows(), chart.patch.VertexCount());
+}
+
+TEST(StretchDarts, ReachTheirGoalAndStop) {
+  const TestSurface surface(shapes::SphericalCap(12, 1.2));
+  const ChartPatch patch = surface.WholePatch();
+  const double infinite = std::numeric_limits<double>::infinity();
+  const double flat = Flatten(patch.mesh).l2_stretch;
+  ASSERT_GT(flat, 1.001);
+  EXPECT_EQ(CutStretchDarts(patch, nullptr, Goal(flat + 1e-6, infinite, patch.Diagonal()), [] {}).count, 0);
+  const double goal = 1 + (flat - 1) / 2;
+  const DartedChart chart = CutStretchDarts(patch, nullptr, Goal(goal, infinite, patch.Diagonal()), [] {});
+  EXPECT_GE(chart.count, 1);
+  EXPECT_LE(chart.flat.l2_stretch, goal);
+}
+
+TEST(StretchDarts, OneThatDoesNotHelpIsTakenBack) {
+  const TestSurface surface(shapes::SphericalCap(12, 1.5));
+  const ChartPatch patch = surface.WholePatch();
+  const Flattening flat = Flatten(patch.mesh);
+  ASSERT_GT(flat.linf_stretch, 1.1);
+  // A dart's length is dear: no fall of the Linf stretch is worth it.
+  DartGoal goal = Goal(flat.l2_stretch + 1e-6, 1, patch.Diagonal());
+  goal.unit = 1e-9;
+  const DartedChart chart = CutStretchDarts(patch, nullptr, goal, [] {});
+  EXPECT_EQ(chart.count, 0);
+  EXPECT_TRUE(chart.edges.empty());
+  EXPECT_EQ(chart.patch.opposite, patch.opposite);
+  EXPECT_EQ(chart.flat.uv,
+            Flatten(patch.mesh, {FlattenMethod::kStretchMinimizing, true, goal.l2_stretch}).uv);
+  // Length costs nothing.
+  goal.unit = 1e9;
+  EXPECT_GE(CutStretchDarts(patch, nullptr, goal, [] {}).count, 1);
+}
+
+TEST(StretchDarts, FlatChartsGetNone) {
+  for (const SurfaceData& mesh : {shapes::Grid(8, 8), shapes::Disk(6), shapes::PlaneWithHole(12)}) {
+    const ChartPatch patch = TestSurface(mesh).WholePatch();
+    const DartedChart chart = CutStretchDarts(patch, nullptr, Goal(1.01, 1.3, patch.Diagonal()), [] {});
+    EXPECT_EQ(chart.count, 0);
+    EXPECT_NEAR(chart.flat.l2_stretch, 1, 1e-6);
+  }
+}
+
+TEST(StretchDarts, AreNoLongerThanAllowed) {
+  const TestSurface surface(shapes::SphericalCap(12, 1.5));
+  const ChartPatch patch = surface.WholePatch();
+  int most = 0;
+  for (double share : {0.0, 0.1, 0.25, 0.6}) {
+    const double longest = share * patch.Diagonal();
+    const DartedChart chart = CutStretchDarts(patch, nullptr, Goal(1, 1.01, longest), [] {});
+    EXPECT_LE(Length(patch, chart.edges), chart.count * longest * (1 + 1e-12)) << share;
+    if (share == 0) {
+      EXPECT_EQ(chart.count, 0);
+    }
+    most = std::max(most, chart.count);
+  }
+  EXPECT_GE(most, 1);
+}
+
+TEST(StretchDarts, AllTogetherAreNoLongerThanAllowed) {
+  const TestSurface surface(shapes::SphericalCap(12, 1.5));
+  const ChartPatch patch = surface.WholePatch();
+  DartGoal goal = Goal(1, 1.01, patch.Diagonal());
+  const double free_length = Length(patch, CutStretchDarts(patch, nullptr, goal, [] {}).edges);
+  ASSERT_GT(free_length, 0);
+  for (double share : {0.3, 0.7}) {
+    goal.most_length = share * free_length;
+    const DartedChart chart = CutStretchDarts(patch, nullptr, goal, [] {});
+    EXPECT_LE(Length(patch, chart.edges), goal.most_length * (1 + 1e-12));
+  }
+}
+
+TEST(StretchDarts, AKnownFlatteningIsTaken) {
+  const TestSurface surface(shapes::SphericalCap(10, 1.3));
+  const ChartPatch patch = surface.WholePatch();
+  const DartGoal goal = Goal(1.01, 1.2, patch.Diagonal());
+  FlattenOptions options;
+  options.l2_bound = goal.l2_stretch;
+  const Flattening known = Flatten(patch.mesh, options);
+  const DartedChart a = CutStretchDarts(patch, nullptr, goal, [] {}),
+                    b = CutStretchDarts(patch, &known, goal, [] {});
+  EXPECT_EQ(a.edges, b.edges);
+  EXPECT_EQ(a.flat.uv, b.flat.uv);
+}
+
+}  // namespace
+}  // namespace dcharts
