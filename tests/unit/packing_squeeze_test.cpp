@@ -52,14 +52,14 @@ void ExpectSound(const std::vector<std::vector<RowRuns>>& shapes, const std::vec
 TEST(PackingSqueeze, FourBoxesThatOverlapFillASquare) {
   const std::vector<std::vector<RowRuns>> shapes(4, {Box(20, 20)});
   std::vector<Spot> spots(4);
-  EXPECT_EQ(Squeeze(shapes, 60, 3000, {}, &spots), 40);
+  EXPECT_EQ(Squeeze(shapes, 60, 3000, 0, {}, &spots), 40);
   ExpectSound(shapes, spots, 40);
 }
 
 TEST(PackingSqueeze, TrianglesTurnToNest) {
   const std::vector<std::vector<RowRuns>> shapes(2, Triangle(20));
   std::vector<Spot> spots(2);
-  EXPECT_EQ(Squeeze(shapes, 45, 3000, {}, &spots), 21);
+  EXPECT_EQ(Squeeze(shapes, 45, 3000, 0, {}, &spots), 21);
   ExpectSound(shapes, spots, 21);
   EXPECT_NE(spots[0].turn, spots[1].turn);
 }
@@ -67,7 +67,7 @@ TEST(PackingSqueeze, TrianglesTurnToNest) {
 TEST(PackingSqueeze, WhatDoesNotFitStaysAsItWas) {
   const std::vector<std::vector<RowRuns>> shapes{{Box(10, 10)}, {Box(30, 5)}, {Box(10, 10)}};
   std::vector<Spot> spots{{0, 1, 2}, {0, 3, 4}, {0, 5, 6}};
-  EXPECT_EQ(Squeeze(shapes, 20, 500, {}, &spots), 0);
+  EXPECT_EQ(Squeeze(shapes, 20, 500, 0, {}, &spots), 0);
   EXPECT_EQ(spots[1].x, 3);
   EXPECT_EQ(spots[2].y, 6);
 }
@@ -78,34 +78,33 @@ TEST(PackingSqueeze, SameInputSameResult) {
   for (int k = 0; k < 12; ++k)
     shapes.push_back({Box(5 + static_cast<int>(random() % 20), 5 + static_cast<int>(random() % 20))});
   std::vector<Spot> a(12), b(12);
-  const int side = Squeeze(shapes, 90, 1000, {}, &a);
+  const int side = Squeeze(shapes, 90, 1000, 0, {}, &a);
   EXPECT_GT(side, 0);
-  EXPECT_EQ(Squeeze(shapes, 90, 1000, {}, &b), side);
+  EXPECT_EQ(Squeeze(shapes, 90, 1000, 0, {}, &b), side);
   for (size_t k = 0; k < 12; ++k) EXPECT_TRUE(a[k].x == b[k].x && a[k].y == b[k].y) << k;
   ExpectSound(shapes, a, side);
+}
+
+TEST(PackingSqueeze, EndsAlsoWhereNothingCanMove) {
+  // Three boxes that fill the square each: no move helps, and none makes the square smaller.
+  const std::vector<std::vector<RowRuns>> shapes(3, {Box(20, 20)});
+  std::vector<Spot> spots(3);
+  int polls = 0;
+  EXPECT_EQ(Squeeze(
+                shapes, 20, 500, 0, [&] { ++polls; }, &spots),
+            0);
+  EXPECT_LE(polls, 500);
+  // And one alone shrinks the square to itself, then can't fit.
+  std::vector<Spot> one(1);
+  EXPECT_EQ(Squeeze({{Box(20, 20)}}, 40, 500, 0, {}, &one), 20);
 }
 
 TEST(PackingSqueeze, PollMayStopIt) {
   const std::vector<std::vector<RowRuns>> shapes(4, {Box(20, 20)});
   std::vector<Spot> spots(4);
   EXPECT_THROW(Squeeze(
-                   shapes, 60, 3000, [] { throw 1; }, &spots),
+                   shapes, 60, 3000, 0, [] { throw 1; }, &spots),
                int);
-}
-
-TEST(PackingSlide, MovesTowardsTheCornerUntilNothingCanGoOn) {
-  const std::vector<RowRuns> shapes{Box(10, 10), Box(10, 10), Box(5, 5)};
-  std::vector<Spot> spots{{0, 3, 4}, {0, 20, 6}, {0, 30, 30}};
-  ASSERT_TRUE(Slide(shapes, 40, &spots));
-  EXPECT_TRUE(spots[0].x == 0 && spots[0].y == 0);
-  EXPECT_TRUE(spots[1].x == 10 && spots[1].y == 0);
-  EXPECT_LE(spots[2].x + spots[2].y, 20);
-  ExpectSound({{shapes[0]}, {shapes[1]}, {shapes[2]}}, spots, 40);
-}
-
-TEST(PackingSlide, RefusesOverlap) {
-  std::vector<Spot> spots{{0, 0, 0}, {0, 9, 9}};
-  EXPECT_FALSE(Slide({Box(10, 10), Box(10, 10)}, 40, &spots));
 }
 
 }  // namespace

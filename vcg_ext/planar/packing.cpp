@@ -7,11 +7,11 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <random>
 #include <utility>
 
 #include "common/errors.h"
 #include "planar/packing_board.h"
+#include "planar/packing_compact.h"
 #include "planar/packing_squeeze.h"
 #include "planar/upright_box.h"
 
@@ -148,59 +148,51 @@ class Packer {
     return side;
   }
 
-  /// Packs more tightly than one chart after the other can: on coarser cells, then slid together on finer
-  /// ones. `side`: of the square that `spots` take. Afterwards scale and margin are those of the new cells.
-  int Tighten(int side, std::vector<Spot>* spots) {
-    const double scale = scale_, margin = margin_, coarse = static_cast<double>(kCoarse) / side;
-    std::vector<Spot> moved = *spots;
-    for (Spot& s : moved) {
-      s.x = static_cast<int>(std::lround(s.x * coarse));
-      s.y = static_cast<int>(std::lround(s.y * coarse));
-    }
+  /// Packs few charts more tightly than one after the other can. Squeezed together on coarse cells by their
+  /// middles, charts overlap hardly or not at all; then they are compacted by their outlines. The best of
+  /// several searches. `side`, `spots`: where to start; `packing` is that one, and is replaced by a larger.
+  void Tighten(int side, const std::vector<Spot>& spots, const CompactOptions& options, Packing* packing) {
+    constexpr int kCoarse = 128, kSearches = 3;
+    const double coarse = static_cast<double>(kCoarse) / side;
+    scale_ *= coarse;
+    margin_ *= coarse;
     std::vector<std::vector<RowRuns>> shapes;
     for (const auto& turns : turns_) {
       shapes.emplace_back();
-      for (const Turn& turn : turns)
-        shapes.back().push_back(CoveredCells(coarse * scale * turn.outline, coarse * margin));
+      for (const Turn& turn : turns) shapes.back().push_back(MiddleCells(scale_ * turn.outline, margin_));
     }
-    const int moves = std::clamp(75000 / static_cast<int>(turns_.size()), 1500, 5000);
-    const int coarse_side = Squeeze(shapes, kCoarse + kCoarse / 40, moves, poll_, &moved);
-    if (coarse_side == 0) return side;
-    const int fine_side = coarse_side * kFine;
-    std::vector<RowRuns> chosen;
-    for (size_t k = 0; k < turns_.size(); ++k) {
-      chosen.push_back(
-          CoveredCells(kFine * coarse * scale * turns_[k][moved[k].turn].outline, kFine * coarse * margin));
-      moved[k].x *= kFine;
-      moved[k].y *= kFine;
+    std::vector<Spot> start = spots;
+    for (Spot& s : start) {
+      s.x = static_cast<int>(std::lround(s.x * coarse));
+      s.y = static_cast<int>(std::lround(s.y * coarse));
     }
-    if (!Slide(chosen, fine_side, &moved)) return side;
-    int end = 0;
-    for (size_t k = 0; k < turns_.size(); ++k)
-      end = std::max({end, moved[k].x + chosen[k].width, moved[k].y + chosen[k].Height()});
-    if (end >= kFine * kCoarse) return side;
-    scale_ = kFine * coarse * scale;
-    margin_ = kFine * coarse * margin;
-    *spots = moved;
-    return end;
+    const int moves = std::clamp(50000 / static_cast<int>(turns_.size()), 1000, 3500);
+    for (unsigned seed = 0; seed < kSearches; ++seed) {
+      std::vector<Spot> moved = start;
+      const int squeezed = Squeeze(shapes, kCoarse + kCoarse / 40, moves, seed, poll_, &moved);
+      if (squeezed == 0) continue;
+      Packing tight = PackingOf(moved, squeezed);
+      if (Compact(outlines_, options, packing->scale, poll_, &tight)) {
+        tight.padding = packing->padding;
+        *packing = std::move(tight);
+      }
+    }
   }
 
-  double Scale() const { return scale_; }
-
-  /// In cells.
-  std::vector<Placement> PlacementsOf(const std::vector<Spot>& spots) const {
-    std::vector<Placement> placements;
+  /// Of spots in a square of `side` cells.
+  Packing PackingOf(const std::vector<Spot>& spots, int side) const {
+    Packing packing;
+    packing.scale = scale_ / side;
     for (size_t k = 0; k < spots.size(); ++k) {
       const Turn& turn = turns_[k][spots[k].turn];
-      placements.push_back({turn.angle, Eigen::Vector2d(spots[k].x + margin_, spots[k].y + margin_) -
-                                            scale_ * turn.corner.transpose()});
+      packing.placements.push_back({turn.angle, (Eigen::Vector2d(spots[k].x + margin_, spots[k].y + margin_) -
+                                                 scale_ * turn.corner.transpose()) /
+                                                    side});
     }
-    return placements;
+    return packing;
   }
 
  private:
-  static constexpr int kCoarse = 256, kFine = 4;
-
   static std::pair<int, int> SizeClass(const RowRuns& cells) {
     constexpr double kStep = 0.15;
     return {static_cast<int>(std::log(cells.longest_run) / kStep),
@@ -240,15 +232,13 @@ Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
   constexpr double kLikelyUse = 0.6;  // of the square
   double scale = cells / std::max(std::sqrt(packer.TotalArea() / kLikelyUse), packer.LongestSide() * 1.02);
 
-  // Large charts first is a good rule, not a law: with few charts, a search goes on from the best of these
-  // plans.
+  // Large charts first is a good rule, not a law.
   std::vector<PackPlan> plans;
   for (double share : count <= 300 ? std::vector<double>{0.5, 1, 0} : std::vector<double>{0.5}) {
     if (count <= 1000) plans.push_back({packer.OrderBy(share), 0, 1});
     plans.push_back({packer.OrderBy(share), cells, 1});
     if (count <= 1000) plans.push_back({packer.OrderBy(share), cells, 0.5});
   }
-  int search_steps = count > 1 ? std::clamp(2500 / count, 0, 10) : 0;
 
   // What a texel is in cells is known only when all are placed: the margin is for a guessed side, which must
   // prove large enough.
@@ -272,43 +262,23 @@ Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
       best_spots = spots;
     };
     for (const PackPlan& plan : plans) try_plan(plan);
-    std::minstd_rand random;  // seeded alike for every run
-    for (int step = 0; step < search_steps && side > 0; ++step) {
-      constexpr double kTight = 0.85;  // of the square: hardly to be bettered
-      if (packer.TotalArea() * scale * scale > kTight * side * side) break;
-      PackPlan plan = best;
-      const auto from = random() % plan.order.size(), to = random() % plan.order.size();
-      const int chart = plan.order[from];
-      plan.order.erase(plan.order.begin() + static_cast<std::ptrdiff_t>(from));
-      plan.order.insert(plan.order.begin() + static_cast<std::ptrdiff_t>(to), chart);
-      constexpr double kLeans[] = {0.25, 0.5, 0.75, 1};
-      switch (random() % 4) {
-        case 0:
-          plan.width = 0;
-          break;
-        case 1:
-          plan.width = side - 1 - static_cast<int>(random() % static_cast<unsigned>(1 + side / 12));
-          plan.lean = kLeans[random() % 4];
-          break;
-        default:
-          if (plan.width >= side) plan.width = side - 1;
-      }
-      try_plan(plan);
-    }
     if (side > 0 && side <= guess) {
-      if (count > 1 && count <= 200) side = packer.Tighten(side, &best_spots);
-      packing.scale = packer.Scale() / side;
+      packing = packer.PackingOf(best_spots, side);
       packing.padding = padding;
-      packing.placements = packer.PlacementsOf(best_spots);
-      for (Placement& p : packing.placements) p.offset /= side;
+      if (count == 1) return packing;
+      constexpr int kMostSqueezed = 100, kMostCompacted = 5000;  // charts; more would take long
+      CompactOptions compact;
+      compact.padding = (padding + kHair) / options.texture_size;
+      compact.rotate = options.rotate;
+      compact.most_steps = count <= 1000 ? 300 : 100;
+      if (count <= kMostCompacted) Compact(outlines, compact, packing.scale, poll, &packing);
+      if (count <= kMostSqueezed) packer.Tighten(side, best_spots, compact, &packing);
       return packing;
     }
     if (side > 0) {
       guess = 1.01 * side + 1;
-      search_steps /= 4;
       plans.assign(1, best);
       if (plans[0].width > 0) plans.push_back({best.order, side - 1, best.lean});
-      search_steps /= 2;
     } else {  // far too many charts for these cells: smaller ones, then less padding
       scale *= 0.8;
       if (attempt >= 2) padding /= 2;

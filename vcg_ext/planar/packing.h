@@ -28,10 +28,10 @@ struct Packing {
 };
 
 /// Packs charts into the unit square by their true outlines, large ones first, each where it lets the square
-/// grow least (after [LPRM02], with all places of a grid tried instead of a horizon); up to 200 charts are
-/// then squeezed together (packing_squeeze.h). One scale for all. `outlines`: per chart the end points of its
-/// boundary edges, two rows per edge. `poll` is called now and then and may throw. Throws Error when there
-/// are too many charts for the texture.
+/// grow least (after [LPRM02], with all places of a grid tried instead of a horizon). Up to 100 charts are
+/// then squeezed together (packing_squeeze.h), up to 5,000 compacted (packing_compact.h). One scale for all.
+/// `outlines`: per chart the end points of its boundary edges, two rows per edge. `poll` is called now and
+/// then and may throw. Throws Error when there are too many charts for the texture.
 Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
              const std::function<void()>& poll = {});
 

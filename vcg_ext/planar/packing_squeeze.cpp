@@ -27,7 +27,7 @@ int SharedCells(const RowRuns& a, const Spot& at_a, const RowRuns& b, const Spot
 
 class GuidedSearch {
  public:
-  GuidedSearch(const std::vector<std::vector<RowRuns>>& shapes, int side, int most_moves,
+  GuidedSearch(const std::vector<std::vector<RowRuns>>& shapes, int side, int most_moves, unsigned seed,
                const std::function<void()>& poll, std::vector<Spot>& spots)
       : shapes_(shapes),
         count_(static_cast<int>(shapes.size())),
@@ -35,7 +35,8 @@ class GuidedSearch {
         moves_left_(most_moves),
         poll_(poll),
         spots_(spots),
-        sums_(static_cast<size_t>(stride_) * (side + 1)) {
+        sums_(static_cast<size_t>(stride_) * (side + 1)),
+        random_(seed + 1) {
     for (const auto& turns : shapes) {
       spans_.emplace_back();
       for (const RowRuns& cells : turns) spans_.back().push_back(SpansOf(cells));
@@ -45,7 +46,7 @@ class GuidedSearch {
   // Tries to free the charts of overlap within a square of this side.
   bool Fit(int side, int most_rounds) {
     side_ = side;
-    --moves_left_;  // so that there is an end even when no chart can move
+    --moves_left_;  // here and per round: so there is an end even when no chart can move
     weight_.assign(static_cast<size_t>(count_) * count_, kUnit);
     for (int k = 0; k < count_; ++k) {
       const RowRuns& cells = Shape(k);
@@ -55,7 +56,7 @@ class GuidedSearch {
       s.y = std::clamp(s.y, 0, side - Shape(k).Height());
     }
     int best = std::numeric_limits<int>::max(), rounds_since = 0;
-    for (int round = 0; moves_left_ > 0; ++round) {
+    for (; moves_left_ > 0; --moves_left_) {
       const std::vector<int> bad = Overlapping();
       if (bad.empty()) return true;
       if (total_ < best) {
@@ -74,6 +75,7 @@ class GuidedSearch {
 
   // Lets two large charts change places.
   void SwapTwo() {
+    if (count_ < 2) return;
     std::vector<int> order(count_);
     std::iota(order.begin(), order.end(), 0);
     const auto size = [&](int k) { return Shape(k).width * Shape(k).Height(); };
@@ -230,13 +232,14 @@ class GuidedSearch {
     Descend(k, 4, here);
     if (here.cost < best.cost) best = here;
     const int turn_count = static_cast<int>(turns.size());
-    const int bound = kStartBound * best.cost;  // of the places to walk downhill from
+    // Of the places to walk downhill from.
+    const int bound = std::min(best.cost, std::numeric_limits<int>::max() / kStartBound) * kStartBound;
     for (int n = 0; n < std::min(kTurnsTried, turn_count) && best.cost > 0; ++n) {
       const int t = n == 0 ? spots_[k].turn : static_cast<int>(random_() % static_cast<unsigned>(turn_count));
       const RowRuns& cells = turns[t];
       const int most_x = side_ - cells.width, most_y = side_ - cells.Height();
       if (most_x < 0 || most_y < 0) continue;
-      const int step = std::max(2, std::min({cells.width, cells.Height(), side_ / 4}) / 8);
+      const int step = std::max(3, std::min({cells.width, cells.Height(), side_ / 4}) / 6);
       Candidate found{{t, 0, 0}, bound};
       const int first_x = static_cast<int>(random_() % static_cast<unsigned>(std::min(step, most_x + 1))),
                 first_y = static_cast<int>(random_() % static_cast<unsigned>(std::min(step, most_y + 1)));
@@ -252,7 +255,7 @@ class GuidedSearch {
     spots_[k] = best.spot;
   }
 
-  static constexpr int kBlock = 16, kUnit = 16, kMostWeight = 1 << 10, kTurnsTried = 6, kStartBound = 2;
+  static constexpr int kBlock = 16, kUnit = 16, kMostWeight = 1 << 9, kTurnsTried = 4, kStartBound = 2;
 
   const std::vector<std::vector<RowRuns>>& shapes_;
   const int count_;
@@ -264,17 +267,17 @@ class GuidedSearch {
   std::vector<std::vector<std::vector<Span>>> spans_;  // of shapes_
   std::vector<int> weight_;                            // per pair, both ways
   int side_ = 0;
-  int total_ = 0;            // cells of overlap
-  std::minstd_rand random_;  // seeded alike for every run
+  int total_ = 0;  // cells of overlap
+  std::minstd_rand random_;
 };
 
 }  // namespace
 
-int Squeeze(const std::vector<std::vector<RowRuns>>& shapes, int side, int most_moves,
+int Squeeze(const std::vector<std::vector<RowRuns>>& shapes, int side, int most_moves, unsigned seed,
             const std::function<void()>& poll, std::vector<Spot>* spots) {
   constexpr int kRounds = 30;  // without less overlap than before
   std::vector<Spot> tried = *spots;
-  GuidedSearch search(shapes, side, most_moves, poll, tried);
+  GuidedSearch search(shapes, side, most_moves, seed, poll, tried);
   int found = 0, step = std::max(1, side / 50), target = side;
   while (search.MovesLeft() > 0) {
     if (search.Fit(target, kRounds)) {
@@ -288,61 +291,6 @@ int Squeeze(const std::vector<std::vector<RowRuns>>& shapes, int side, int most_
     target = found > 0 ? found - step : side;
   }
   return found;
-}
-
-bool Slide(const std::vector<RowRuns>& shapes, int side, std::vector<Spot>* spots) {
-  const int count = static_cast<int>(shapes.size());
-  std::vector<int> owner(static_cast<size_t>(side) * side, -1);
-  const auto put = [&](int k, int value) {
-    const Spot& s = (*spots)[k];
-    for (int r = 0; r < shapes[k].Height(); ++r)
-      for (const Run& run : shapes[k].rows[r]) {
-        int* row = &owner[static_cast<size_t>(s.y + r) * side + s.x];
-        std::fill(row + run.first, row + run.last + 1, value);
-      }
-  };
-  const auto is_free = [&](int k, int x, int y) {
-    if (x < 0 || y < 0 || x + shapes[k].width > side || y + shapes[k].Height() > side) return false;
-    for (int r = 0; r < shapes[k].Height(); ++r) {
-      const int* row = &owner[static_cast<size_t>(y + r) * side + x];
-      for (const Run& run : shapes[k].rows[r])
-        for (int c = run.first; c <= run.last; ++c)
-          if (row[c] >= 0 && row[c] != k) return false;
-    }
-    return true;
-  };
-  for (int k = 0; k < count; ++k) {
-    if (!is_free(k, (*spots)[k].x, (*spots)[k].y)) return false;
-    put(k, k);
-  }
-  for (bool moved = true; moved;) {
-    moved = false;
-    std::vector<int> order(count);
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-      return (*spots)[a].x + (*spots)[a].y < (*spots)[b].x + (*spots)[b].y;
-    });
-    for (int k : order) {
-      Spot& s = (*spots)[k];
-      Spot to = s;
-      for (bool on = true; on;) {
-        on = false;
-        for (const auto& [dx, dy] : {std::pair<int, int>{-1, -1}, {-1, 0}, {0, -1}}) {
-          if (!is_free(k, to.x + dx, to.y + dy)) continue;
-          to.x += dx;
-          to.y += dy;
-          on = true;
-          break;
-        }
-      }
-      if (to.x == s.x && to.y == s.y) continue;
-      put(k, -1);
-      s = to;
-      put(k, k);
-      moved = true;
-    }
-  }
-  return true;
 }
 
 }  // namespace dcharts

@@ -6,6 +6,17 @@
 #include <utility>
 
 namespace dcharts {
+namespace {
+
+void FindWidestRun(int row, RowRuns* cells) {
+  for (const Run& run : cells->rows[row])
+    if (run.last - run.first + 1 > cells->longest_run) {
+      cells->longest_run = run.last - run.first + 1;
+      cells->widest_row = row;
+    }
+}
+
+}  // namespace
 
 RowRuns CoveredCells(const Points2& outline, double margin) {
   RowRuns cells;
@@ -51,11 +62,41 @@ RowRuns CoveredCells(const Points2& outline, double margin) {
       else
         runs.push_back({first, last});
     }
-    for (const Run& run : cells.rows[row])
-      if (run.last - run.first + 1 > cells.longest_run) {
-        cells.longest_run = run.last - run.first + 1;
-        cells.widest_row = row;
-      }
+    FindWidestRun(row, &cells);
+  }
+  return cells;
+}
+
+RowRuns MiddleCells(const Points2& outline, double margin) {
+  RowRuns cells;
+  const Eigen::RowVector2d size = outline.colwise().maxCoeff();
+  cells.width = std::max(1, static_cast<int>(std::lround(size.x() + 2 * margin)));
+  cells.rows.resize(std::max(1, static_cast<int>(std::lround(size.y() + 2 * margin))));
+  std::vector<std::vector<double>> crossings(cells.rows.size());
+  for (Eigen::Index e = 0; e + 1 < outline.rows(); e += 2) {
+    Eigen::Vector2d a = outline.row(e), b = outline.row(e + 1);
+    if (a.y() > b.y()) std::swap(a, b);
+    for (int row = std::max(0, static_cast<int>(std::ceil(a.y() + margin - 0.5)));
+         row < cells.Height() && row + 0.5 < b.y() + margin; ++row)
+      crossings[row].push_back(a.x() + (b.x() - a.x()) * (row + 0.5 - margin - a.y()) / (b.y() - a.y()));
+  }
+  for (int row = 0; row < cells.Height(); ++row) {
+    std::vector<Run>& runs = cells.rows[row];
+    std::sort(crossings[row].begin(), crossings[row].end());
+    for (size_t k = 0; k + 1 < crossings[row].size(); k += 2) {
+      const int first = std::clamp(static_cast<int>(std::lround(crossings[row][k])), 0, cells.width - 1);
+      const int last = std::clamp(static_cast<int>(std::lround(crossings[row][k + 1] + 2 * margin)) - 1,
+                                  first, cells.width - 1);
+      if (!runs.empty() && first <= runs.back().last + 1)
+        runs.back().last = std::max(runs.back().last, last);
+      else
+        runs.push_back({first, last});
+    }
+    FindWidestRun(row, &cells);
+  }
+  if (cells.longest_run == 0) {
+    cells.rows[0] = {{0, 0}};
+    FindWidestRun(0, &cells);
   }
   return cells;
 }

@@ -27,4 +27,8 @@ struct RowRuns {
 /// (margin, margin).
 RowRuns CoveredCells(const Points2& outline, double margin);
 
+/// The same of cells whose middle is inside, nearly: as large as the chart on average, where CoveredCells is
+/// larger. At least one cell.
+RowRuns MiddleCells(const Points2& outline, double margin);
+
 }  // namespace dcharts
