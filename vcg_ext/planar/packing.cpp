@@ -152,7 +152,7 @@ class Packer {
   /// middles, charts overlap hardly or not at all; then they are compacted by their outlines. The best of
   /// several searches. `side`, `spots`: where to start; `packing` is that one, and is replaced by a larger.
   void Tighten(int side, const std::vector<Spot>& spots, const CompactOptions& options, Packing* packing) {
-    constexpr int kCoarse = 128, kSearches = 3;
+    constexpr int kCoarse = 128, kSearches = 5;
     const double coarse = static_cast<double>(kCoarse) / side;
     scale_ *= coarse;
     margin_ *= coarse;
@@ -166,7 +166,7 @@ class Packer {
       s.x = static_cast<int>(std::lround(s.x * coarse));
       s.y = static_cast<int>(std::lround(s.y * coarse));
     }
-    const int moves = std::clamp(50000 / static_cast<int>(turns_.size()), 1000, 3500);
+    const int moves = std::clamp(40000 / static_cast<int>(turns_.size()), 800, 3500);
     for (unsigned seed = 0; seed < kSearches; ++seed) {
       std::vector<Spot> moved = start;
       const int squeezed = Squeeze(shapes, kCoarse + kCoarse / 40, moves, seed, poll_, &moved);
