@@ -296,7 +296,8 @@ class Parameterizer {
     const auto poll = [&] { progress_.Poll(); };
     LayFlat(piece, FlattenMethod::kStretchMinimizing, poll);
     constexpr double kWorthIt = 1.02;
-    if (!piece.flat || piece.l2_stretch > kWorthIt) return false;
+    const double bound = params_.max_stretch > 0 ? std::min(kWorthIt, params_.max_stretch) : kWorthIt;
+    if (!piece.flat || piece.l2_stretch > bound) return false;
     if (params_.method != FlattenMethod::kStretchMinimizing) LayFlat(piece, params_.method, poll);
     if (!piece.flat) return false;
     if (!OverlappingPairs(OnGrid(piece.uv, piece.patch.mesh.triangles), 1).empty()) return false;
