@@ -440,8 +440,10 @@ bool IsSound(const std::vector<Shape>& shapes, const std::vector<Pose>& poses, d
 bool Compact(const std::vector<Points2>& outlines, const CompactOptions& options, double least_scale,
              const std::function<void()>& poll, Packing* packing) {
   constexpr double kStart = 0.97;  // frees the charts of overlap as a rule
-  constexpr double kSimpler = 0.02;
+  constexpr double kSimpler = 0.02, kMostSimpler = 1;
+  constexpr size_t kManyCorners = 8000, kManyPerChart = 30;
   const double padding = options.padding * kSide;
+  std::vector<std::vector<std::vector<Vec>>> all_loops;
   std::vector<Shape> full, simple;
   std::vector<Pose> poses;
   std::vector<Vec> middles;
@@ -455,15 +457,28 @@ bool Compact(const std::vector<Points2>& outlines, const CompactOptions& options
     for (auto& loop : loops)
       for (Vec& p : loop) p = (units * (p - middle)).unaryExpr(&Rounded);
     full.push_back(MakeShape(loops));
-    for (auto& loop : loops) loop = Simplified(loop, kSimpler);
-    simple.push_back(MakeShape(loops));
+    all_loops.push_back(std::move(loops));
     middles.push_back(middle);
     const Placement& at = packing->placements[k];
     const Vec turned = Eigen::Rotation2Dd(at.angle) * middle;
     poses.push_back({(kSide * (packing->scale * turned + at.offset)).unaryExpr(&Rounded), 0});
     poses.back().angle = options.rotate ? Rounded(at.angle) : at.angle;
   }
-  Compactor compactor(std::move(simple), std::move(poses), padding + 2 * kSimpler, options, poll);
+  // Time goes with the corners: where there are very many, they are simplified more, and padded as much.
+  double simpler = kSimpler;
+  for (;; simpler *= 2) {
+    simple.clear();
+    size_t corners = 0;
+    for (const auto& loops : all_loops) {
+      std::vector<std::vector<Vec>> fewer;
+      for (const auto& loop : loops) fewer.push_back(Simplified(loop, simpler));
+      simple.push_back(MakeShape(fewer));
+      corners += simple.back().corners.size();
+    }
+    if (corners <= std::max(kManyCorners, kManyPerChart * outlines.size()) || 2 * simpler > kMostSimpler)
+      break;
+  }
+  Compactor compactor(std::move(simple), std::move(poses), padding + 2 * simpler, options, poll);
   double scale = compactor.Grow(kStart);
   if (scale * packing->scale <= least_scale) return false;
   // Sound as a rule, but the outlines that pushed each other were a little simpler than those that count.
