@@ -6,7 +6,7 @@ import numpy as np
 from atlases import make
 from reference import RIVAL
 
-WEIGHTS = (0.0, 0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
+WEIGHTS = (0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 16.0)
 
 
 def curve_at(points, seam):
