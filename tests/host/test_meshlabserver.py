@@ -81,6 +81,13 @@ def test_conformal_atlas(server, tmp_path, plush):
     assert shear[1] < shear[0]
 
 
+def test_target_charts(server, tmp_path, plush):
+    run, out = server(one_filter(tmp_path, 'D-Charts: Texture Atlas', target_charts=7), plush)
+    assert run.returncode == 0 and out is not None, run.stdout[-2000:]
+    assert re.search(r'\bcharts\b\W+([0-9]+)', run.stdout)[1] == '7'
+    assert np.array_equal(np.unique(ply_layers(out).quality), np.arange(7))
+
+
 def test_log_has_the_figures(server, plush):
     run, _ = server(EXAMPLES / 'texture_atlas.mlx', plush)
     for figure in ('charts', 'l2_stretch', 'linf_stretch', 'l2_shear', 'seam_length', 'flipped_faces',

@@ -240,6 +240,42 @@ def test_choices(parameter, plush):
             load(plush).apply_filter(ATLAS, **{parameter: wrong})
 
 
+@pytest.mark.parametrize('count', [7, 12])
+def test_target_charts(plush, count):
+    """Exactly as many charts as asked for, at once and staged."""
+    ms, staged = load(plush), load(plush)
+    figures = ms.apply_filter(ATLAS, target_charts=count)
+    assert figures['charts'] == count and figures['overlapping_faces'] == 0 and figures['flipped_faces'] == 0
+    for name in STAGES:
+        takes_it = 'target_charts' in BY_PYTHON_NAME[name]
+        staged.apply_filter(name, **({'target_charts': count} if takes_it else {}))
+    assert result(staged) == result(ms)
+
+
+def l2_of_charts(mesh):
+    """The L2 stretch of each chart, with the chart's area in the texture scaled to its area on the surface."""
+    points, uv = mesh.vertex_matrix()[mesh.face_matrix()], mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2)
+    charts = mesh.face_scalar_array().astype(int)
+    a, b, p, q = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0], points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]
+    twice_uv_area = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    area = np.linalg.norm(np.cross(p, q), axis=1) / 2
+    by_u = (p * b[:, 1:] - q * a[:, 1:]) / twice_uv_area[:, None]
+    by_v = (q * a[:, :1] - p * b[:, :1]) / twice_uv_area[:, None]
+    stretch = ((by_u**2).sum(axis=1) + (by_v**2).sum(axis=1)) / 2  # the mean of the squared singular values
+    chart_area = np.bincount(charts, area)
+    return np.sqrt(np.bincount(charts, area * stretch) * np.bincount(charts, twice_uv_area / 2)) / chart_area
+
+
+@pytest.mark.parametrize('mesh', MESHES, ids=lambda path: path.stem)
+@pytest.mark.parametrize('bound', [None, 1.003, 1.1])
+def test_max_stretch_bounds_every_chart(mesh, bound):
+    ms = load(mesh)
+    ms.apply_filter(ATLAS, **({'max_stretch': bound} if bound else {}))
+    stretch = l2_of_charts(ms.current_mesh())
+    assert (stretch > 1 - 1e-6).all()
+    assert stretch.max() <= (bound or 1.01) + 1e-5  # the texture's grid adds a little
+
+
 def test_graph_cut_makes_shorter_borders(plush):
     """Than no straightening, and than the paper's way, on a model with many charts; the charts stay as many."""
     lengths = {}
