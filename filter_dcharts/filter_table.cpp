@@ -277,15 +277,8 @@ std::vector<FilterSpec> MakeFilters() {
        "Sections 2, 4 and 5", atlas, texture,
        Pick({"target_charts", "max_stretch", "method", "texture_size", "padding", "rotate", "density_by"})},
       {FilterId::kTextureAtlas, "D-Charts: Texture Atlas", "dcharts_texture_atlas",
-       "Makes a texture atlas: segments the surface into nearly developable charts, fills, straightens, "
-       "merges and cuts "
-       "them, flattens them with little stretch, no flipped face and no overlap, and packs them into the "
-       "unit square. "
-       "The same as the six D-Charts stage filters one after the other. Writes chart numbers to the face "
-       "quality, a "
-       "colour per chart to the face colour, and texture coordinates per wedge with texture index 0. "
-       "Vertices and "
-       "faces stay as they are.",
+       "Makes a texture atlas: the six D-Charts stages in one. Writes chart numbers to the face quality, "
+       "colours to the face colour, texture coordinates to the wedges; vertices and faces stay as they are.",
        "Sections 2 to 5", atlas, coloring, PickAll()},
       {FilterId::kMeasure,
        "D-Charts: Measure",
