@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_table.h"
 
+#include <algorithm>
 #include <initializer_list>
+#include <iterator>
 #include <locale>
 #include <sstream>
 #include <stdexcept>
@@ -309,6 +311,16 @@ const std::vector<ParamSpec>& AllParams() {
 const std::vector<FilterSpec>& AllFilters() {
   static const std::vector<FilterSpec> filters = MakeFilters();
   return filters;
+}
+
+bool IsAdvanced(const FilterSpec& filter, const ParamSpec& param) {
+  static const char* const kDetails[] = {"fitting_weight",    "compactness_weight", "straightness_weight",
+                                         "max_iterations",    "reassigned_percent", "seed_candidates",
+                                         "seed_percent",      "small_hole_percent", "merge_threshold",
+                                         "dart_fitting_error"};
+  return filter.id == FilterId::kTextureAtlas &&
+         std::any_of(std::begin(kDetails), std::end(kDetails),
+                     [&](const char* name) { return std::string(name) == param.name; });
 }
 
 const FilterSpec& GetFilter(FilterId id) {

@@ -66,6 +66,9 @@ const std::vector<ParamSpec>& AllParams();
 /// Every filter, in the order of its use.
 const std::vector<FilterSpec>& AllFilters();
 
+/// A detail of one stage in the filter that has the parameters of all: too many for a screen.
+bool IsAdvanced(const FilterSpec& filter, const ParamSpec& param);
+
 /// The filter with this id.
 const FilterSpec& GetFilter(FilterId id);
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <type_traits>
 #include <variant>
 
 #include <QString>
@@ -13,22 +14,33 @@
 
 namespace dcharts {
 
+/// Adds one parameter; the hosts that can then keep an advanced one folded away.
+template <class Rich, class List, class... Args>
+void AddParam(List& list, bool advanced, const Args&... args) {
+  if constexpr (std::is_constructible_v<Rich, const Args&..., bool>)
+    list.addParam(Rich(args..., advanced));
+  else
+    list.addParam(Rich(args...));
+}
+
 /// Adds the filter's parameters with their defaults to the host's list.
 template <class List>
 void AddParams(const FilterSpec& filter, List& list) {
   const Params defaults;
   for (const ParamSpec* spec : filter.params) {
     const QString name(spec->name), label(spec->label), tooltip(QString::fromStdString(TooltipText(*spec)));
+    const bool advanced = IsAdvanced(filter, *spec);
     if (const auto* field = std::get_if<bool Params::*>(&spec->field))
-      list.addParam(RichBool(name, defaults.**field, label, tooltip));
+      AddParam<RichBool>(list, advanced, name, defaults.**field, label, tooltip);
     else if (const auto* count = std::get_if<int Params::*>(&spec->field))
-      list.addParam(RichInt(name, defaults.**count, label, tooltip));
+      AddParam<RichInt>(list, advanced, name, defaults.**count, label, tooltip);
     else if (const auto* number = std::get_if<double Params::*>(&spec->field))
-      list.addParam(RichFloat(name, static_cast<float>(defaults.**number), label, tooltip));
+      AddParam<RichFloat>(list, advanced, name, static_cast<float>(defaults.**number), label, tooltip);
     else if (IsEnum(*spec)) {
       QStringList choices;
       for (const char* choice : spec->choices) choices << QString(choice);
-      list.addParam(RichEnum(name, static_cast<int>(ValueOf(*spec, defaults)), choices, label, tooltip));
+      AddParam<RichEnum>(list, advanced, name, static_cast<int>(ValueOf(*spec, defaults)), choices, label,
+                         tooltip);
     }
   }
 }
