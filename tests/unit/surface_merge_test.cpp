@@ -13,9 +13,11 @@ namespace {
 
 using test::TestSurface;
 
-ChartIds Merged(const TestSurface& surface, ChartIds ids, double threshold = Params().merge_threshold) {
+ChartIds Merged(const TestSurface& surface, ChartIds ids, double threshold = Params().merge_threshold,
+                int target = 0) {
   Params params;
   params.merge_threshold = threshold;
+  params.target_charts = target;
   Progress progress;
   Merger<SurfaceMesh>(*surface, params, progress).Run(ids);
   return ids;
@@ -71,6 +73,14 @@ TEST(Merge, OctantsOfASphereDoNotMerge) {
   const TestSurface surface(shapes::Sphere(12));
   const ChartIds ids = Octants(surface);
   EXPECT_EQ(ChartCount(Merged(surface, ids)), 8);
+}
+
+TEST(Merge, ANumberOfChartsGoesBeforeTheThreshold) {
+  const TestSurface surface(shapes::Sphere(12));
+  for (int target : {1, 3, 8, 9})
+    for (double threshold : {0.0, 4.0})
+      EXPECT_EQ(ChartCount(Merged(surface, Octants(surface), threshold, target)), std::min(target, 8))
+          << target << ", threshold " << threshold;
 }
 
 TEST(Merge, ThresholdZeroMergesNothing) {

@@ -38,7 +38,7 @@ enum class DensityBy {
 /// 2005).
 struct Params {
   // --- segmentation (3.1) and hole filling (3.2)
-  int chart_count = 0;  ///< initial seeds, >= 0; 0 = as many as merging needs for a good choice
+  int chart_count = 0;  ///< initial seeds, >= 0; 0 = find the number
   double max_fitting_error =
       0.2;  ///< F_max, bound of Eq. 1 while growing; 0 < F_max <= 4, no unit (squared cosine)
   double fitting_weight = 1.0;      ///< alpha of Eq. 2, 0..10

@@ -44,7 +44,7 @@ class BoundaryRegion {
 };
 
 /// Merging charts (Section 3.3): the pair with the smallest error first, while it is below
-/// params.merge_threshold.
+/// params.merge_threshold, or, with params.target_charts, until there are no more than that.
 template <class MeshType>
 class Merger {
  public:
@@ -59,11 +59,13 @@ class Merger {
     std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
     auto push = [&](int a, int b) {
       const double error = PairError(ids, a, b);
-      if (error < params_.merge_threshold) queue.push({error, a, b, version_[a] + version_[b]});
+      if (params_.target_charts > 0 || error < params_.merge_threshold)
+        queue.push({error, a, b, version_[a] + version_[b]});
     };
     for (const auto& pair : borders_) push(pair.first.first, pair.first.second);
     int merged = 0;
-    while (!queue.empty()) {
+    const int charts = static_cast<int>(faces_.size());
+    while (!queue.empty() && (params_.target_charts == 0 || charts - merged > params_.target_charts)) {
       const auto [error, a, b, version] = queue.top();
       queue.pop();
       if (faces_[a].empty() || faces_[b].empty() || version != version_[a] + version_[b]) continue;

@@ -85,6 +85,9 @@ void FinishAtlas(const Workspace& work, ChartIds& ids, SeamMask& seams, const Kn
   work.WriteTexcoords(uv, change);
   change.remove_seams = true;
   ReportCharts(work, ids, seams, change.report);
+  if (params.target_charts > 0 && ChartCount(ids) != params.target_charts)
+    progress.Log(std::to_string(params.target_charts) + " charts were asked for, the atlas has " +
+                 std::to_string(ChartCount(ids)) + ".");
   MeasureAtlas(work.Surface(), ids, uv, change.report);
 }
 
@@ -178,28 +181,28 @@ SurfaceChange TextureAtlas(const SurfaceData& mesh, const Params& params, Progre
   SeamMask seams;
   KnownFlattenings known;
   {
-    Stage stage("segment", "Growing charts...", 0, 0.3, progress, change.report);
+    Stage stage("segment", "Growing charts...", 0, 0.2, progress, change.report);
     Segmentation result = Lloyd<SurfaceMesh>(surface, params, progress).Run();
     ids = std::move(result.ids);
     change.report.iterations = result.iterations;
   }
   {
-    Stage stage("fill", "Filling holes...", 0.3, 0.35, progress, change.report);
+    Stage stage("fill", "Filling holes...", 0.2, 0.22, progress, change.report);
     HoleFiller<SurfaceMesh>(surface, params, progress).Run(ids);
   }
   {
-    Stage stage("straighten", "Straightening boundaries...", 0.35, 0.42, progress, change.report);
+    Stage stage("straighten", "Straightening boundaries...", 0.22, 0.25, progress, change.report);
     StraightenBorders(surface, params, progress, ids);
   }
   {
-    Stage stage("merge", "Merging charts...", 0.42, 0.45, progress, change.report);
+    Stage stage("merge", "Merging charts...", 0.25, 0.7, progress, change.report);
     MergeCharts(surface, params, progress, ids, known);
   }
   {
-    Stage stage("cut", "Cutting darts...", 0.45, 0.5, progress, change.report);
+    Stage stage("cut", "Cutting darts...", 0.7, 0.8, progress, change.report);
     change.report.darts = ChartCutter<SurfaceMesh>(surface, params, progress).Run(ids, seams, known);
   }
-  FinishAtlas(work, ids, seams, known, params, progress, 0.5, change);
+  FinishAtlas(work, ids, seams, known, params, progress, 0.8, change);
   if (params.seam_layer) work.WriteSeamLines(seams, change);
   return change;
 }

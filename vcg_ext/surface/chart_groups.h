@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "common/parallel.h"
+#include "common/params.h"
+#include "common/progress.h"
+#include "surface/chart_parts.h"
+#include "surface/chart_trial.h"
+
+namespace dcharts {
+
+/// Charts that are put together from parts, and what they cost: for a surface of area 1, the symmetric
+/// Dirichlet energy (over 4, less 1) of all charts plus a price for the length of all seams. Lengths and
+/// areas are those of a surface of area 1. Trials are made on the coarse copy of the surface.
+template <class MeshType>
+struct ChartGroups {
+  struct Chart {
+    std::vector<int> parts{};
+    double area = 0;
+    ChartTrial trial{};           // of the coarse chart
+    int first = -1, second = -1;  // what it was merged from
+    bool alive = true;
+    bool verified = false;            // lies flat on the fine surface
+    std::map<int, double> borders{};  // neighbour: length; since FindBorders()
+  };
+
+  /// `of_parts` must outlive the groups; each part is a chart at first.
+  ChartGroups(ChartParts<MeshType>& of_parts, const Params& with_params, Progress& to_progress)
+      : parts(of_parts), params(with_params), progress(to_progress) {
+    alive = parts.Count();
+    std::vector<std::vector<int>> single(alive);
+    for (int c = 0; c < alive; ++c) single[c] = {c};
+    TryAll(single);
+    for (int c = 0; c < alive; ++c) {
+      charts.push_back(Made({c}));
+      charts.back().verified = true;  // by SplitBadCharts
+      charts.back().trial = Trial({c});
+    }
+  }
+
+  static constexpr double kNoBound = std::numeric_limits<double>::infinity();
+  /// Energy that a seam as long as the side of a square with the surface's area may cost.
+  static constexpr double kSeamPrice = 0.00225;
+
+  /// The coarse chart is a little worse than the fine one.
+  double CoarseBound() const {
+    constexpr double kCoarseExcess = 1.3;
+    return 1 + kCoarseExcess * (bound - 1);
+  }
+  double SeamCost(double length) const { return params.seam_weight * kSeamPrice * length; }
+  double Energy(int c) const { return charts[c].trial.energy * charts[c].area; }
+  double CutLength(const ChartTrial& trial) const { return trial.cut_length / parts.Unit(); }
+  /// For work that may take long.
+  std::function<void()> Poll() {
+    return [this] { progress.Poll(); };
+  }
+
+  /// A chart of some parts, not among the charts yet.
+  Chart Made(std::vector<int> of_parts) const {
+    Chart chart;
+    chart.parts = std::move(of_parts);
+    for (int part : chart.parts) chart.area += parts.Area(part);
+    return chart;
+  }
+
+  std::vector<int> PartsOfBoth(int a, int b) const {
+    const std::vector<int>&p = charts[a].parts, &q = charts[b].parts;
+    std::vector<int> both(p.size() + q.size());
+    std::merge(p.begin(), p.end(), q.begin(), q.end(), both.begin());
+    return both;
+  }
+
+  /// The trial of some parts together, each made once. One that was refused because of a bound is made again
+  /// for a larger one.
+  const ChartTrial& Trial(const std::vector<int>& some) {
+    auto& [tried_bound, trial] = trials[some];
+    if (tried_bound == 0 || (!trial.flat && tried_bound < CoarseBound())) {
+      progress.Poll();
+      tried_bound = CoarseBound();
+      trial = TryChart(parts.CoarsePatch(some), tried_bound, Poll());
+    }
+    return trial;
+  }
+
+  /// Makes trials ahead, on all threads.
+  void TryAll(const std::vector<std::vector<int>>& sets) {
+    std::vector<const std::vector<int>*> open;
+    std::vector<ChartPatch> patches;
+    for (const std::vector<int>& some : sets)
+      if (trials.find(some) == trials.end()) {
+        open.push_back(&some);
+        patches.push_back(parts.CoarsePatch(some));
+      }
+    std::vector<ChartTrial> made(open.size());
+    ParallelFor(static_cast<int>(open.size()), progress, [&](int k, const std::function<void()>& poll) {
+      made[k] = TryChart(patches[k], CoarseBound(), poll);
+    });
+    for (size_t k = 0; k < open.size(); ++k) trials[*open[k]] = {CoarseBound(), made[k]};
+  }
+
+  /// The chart of each part.
+  std::vector<int> Owners() const {
+    std::vector<int> owner(parts.Count());
+    for (int c = 0; c < static_cast<int>(charts.size()); ++c)
+      if (charts[c].alive)
+        for (int part : charts[c].parts) owner[part] = c;
+    return owner;
+  }
+
+  /// Sets the borders of all charts.
+  void FindBorders() {
+    const std::vector<int> owner = Owners();
+    for (Chart& chart : charts) chart.borders.clear();
+    for (int p = 0; p < parts.Count(); ++p)
+      for (const auto& [q, length] : parts.Borders(p))
+        if (owner[p] != owner[q]) charts[owner[p]].borders[owner[q]] += length;
+  }
+
+  /// Merges two charts; returns the new one.
+  int Join(int a, int b, const ChartTrial& trial) {
+    Chart merged = Made(PartsOfBoth(a, b));
+    merged.trial = trial;
+    merged.first = a;
+    merged.second = b;
+    charts.push_back(std::move(merged));
+    charts[a].alive = charts[b].alive = false;
+    --alive;
+    return static_cast<int>(charts.size()) - 1;
+  }
+
+  /// A new chart that takes the place of those its parts were in.
+  void Replace(const std::vector<int>& of_parts, std::vector<int>& owner) {
+    Chart chart = Made(of_parts);
+    chart.trial = Trial(of_parts);
+    for (int part : of_parts) owner[part] = static_cast<int>(charts.size());
+    charts.push_back(std::move(chart));
+  }
+
+  /// No two of these parts are to be kept apart.
+  bool MayStandTogether(const std::vector<int>& some) const {
+    return std::none_of(apart.begin(), apart.end(), [&](const std::pair<int, int>& pair) {
+      return std::binary_search(some.begin(), some.end(), pair.first) &&
+             std::binary_search(some.begin(), some.end(), pair.second);
+    });
+  }
+
+  /// These parts are one piece.
+  bool HangTogether(const std::vector<int>& some) const {
+    std::set<int> left(some.begin(), some.end());
+    std::vector<int> stack{some.front()};
+    left.erase(some.front());
+    while (!stack.empty()) {
+      const int p = stack.back();
+      stack.pop_back();
+      for (const auto& [q, length] : parts.Borders(p))
+        if (left.erase(q) > 0) stack.push_back(q);
+    }
+    return left.empty();
+  }
+
+  ChartParts<MeshType>& parts;
+  const Params& params;
+  Progress& progress;
+  std::vector<Chart> charts;  ///< a merge adds one; those that are alive are a partition of the parts
+  int alive = 0;
+  double bound = kNoBound;                                           ///< on the L2 stretch of a chart
+  std::map<std::vector<int>, std::pair<double, ChartTrial>> trials;  ///< of parts: bound, trial
+  std::set<std::pair<int, int>> apart;  ///< parts that overlap when they are in one chart
+};
+
+}  // namespace dcharts

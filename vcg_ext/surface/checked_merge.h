@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "common/parallel.h"
+#include "planar/overlap.h"
+#include "surface/chart_groups.h"
+#include "surface/greedy_merge.h"
+#include "surface/known_flattenings.h"
+#include "surface/merge_improvement.h"
+#include "surface/stretch_darts.h"
+
+namespace dcharts {
+
+/// Merges charts by trials on the coarse surface and checks what comes of it on the fine one.
+template <class MeshType>
+class CheckedMerger {
+ public:
+  /// Flattenings of finished charts are left in `known`.
+  CheckedMerger(ChartGroups<MeshType>& groups, KnownFlattenings& known)
+      : groups_(groups), greedy_(groups), known_(known) {}
+
+  void Run() {
+    Merge(Bound());
+    if (greedy_.MayMergeMore() && Bound() < kNoBound) MergeWithDarts();
+    if (groups_.params.target_charts > 0 && greedy_.MayMergeMore()) Merge(kNoBound);
+    const auto before = groups_.charts;
+    if (MergeImprover<MeshType>(groups_).Run() && !Unfit().empty()) groups_.charts = before;
+  }
+
+ private:
+  static constexpr double kNoBound = ChartGroups<MeshType>::kNoBound;
+
+  // Of every finished chart's L2 stretch.
+  double Bound() const {
+    return groups_.params.max_stretch > 0 ? std::max(1.0, groups_.params.max_stretch) : kNoBound;
+  }
+
+  // Merges until done, then has all charts checked on the fine surface; those that fail there are taken
+  // apart, and merging goes on with other pairs.
+  void Merge(double bound) {
+    groups_.bound = bound;
+    greedy_.ForgetFailures();
+    constexpr int kRounds = 12;
+    for (int round = 0; round < kRounds; ++round) {
+      greedy_.Run();
+      if (!UndoBadMerges()) return;
+    }
+  }
+
+  // A chart that doesn't hold on the fine surface, and parts that overlap each other in it.
+  struct Failure {
+    int chart;
+    std::set<std::pair<int, int>> overlaps;
+  };
+
+  // Checks all new charts on the fine surface; returns those that fail.
+  std::vector<Failure> Unfit() {
+    std::vector<int> unverified;
+    std::vector<ChartPatch> patches;
+    for (int c = 0; c < static_cast<int>(groups_.charts.size()); ++c) {
+      if (!groups_.charts[c].alive || groups_.charts[c].verified) continue;
+      unverified.push_back(c);
+      patches.push_back(groups_.parts.FinePatch(groups_.charts[c].parts));
+    }
+    constexpr size_t kMostOverlaps = 1000;
+    std::vector<Flattening> flat(patches.size());
+    std::vector<std::vector<std::pair<int, int>>> overlaps(patches.size());
+    ParallelFor(
+        static_cast<int>(patches.size()), groups_.progress, [&](int k, const std::function<void()>& poll) {
+          double cut_length = 0;
+          patches[k] = Opened(patches[k], cut_length);
+          FlattenOptions options;
+          options.l2_bound = Bound();
+          flat[k] = Flatten(patches[k].mesh, options, poll);
+          if (flat[k].ok)
+            overlaps[k] = OverlappingPairs(OnGrid(flat[k].uv, patches[k].mesh.triangles), kMostOverlaps);
+        });
+    std::vector<Failure> failures;
+    for (size_t k = 0; k < unverified.size(); ++k) {
+      auto& chart = groups_.charts[unverified[k]];
+      chart.verified = flat[k].ok && flat[k].l2_stretch <= groups_.bound && overlaps[k].empty();
+      if (chart.verified) {
+        known_.Add(patches[k], std::move(flat[k]));
+        continue;
+      }
+      failures.push_back({unverified[k], {}});
+      for (const auto& [i, j] : overlaps[k]) {
+        const int p = groups_.parts.PartOf(patches[k].faces[i]),
+                  q = groups_.parts.PartOf(patches[k].faces[j]);
+        if (p != q) failures.back().overlaps.insert({std::min(p, q), std::max(p, q)});
+      }
+    }
+    return failures;
+  }
+
+  // Parts that overlapped in one chart are not to come together again; for other failures the last merge is
+  // taken back.
+  bool UndoBadMerges() {
+    const std::vector<Failure> failures = Unfit();
+    for (const Failure& failure : failures) {
+      groups_.apart.insert(failure.overlaps.begin(), failure.overlaps.end());
+      if (failure.overlaps.empty()) {
+        const auto& chart = groups_.charts[failure.chart];
+        greedy_.Refuse(chart.first, chart.second);
+      }
+      std::vector<int> stack{failure.chart};
+      while (!stack.empty()) {
+        const int c = stack.back();
+        stack.pop_back();
+        if (c != failure.chart && groups_.MayStandTogether(groups_.charts[c].parts)) {
+          groups_.charts[c].alive = true;
+          ++groups_.alive;
+          continue;
+        }
+        if (c == failure.chart) --groups_.alive;
+        groups_.charts[c].alive = false;
+        stack.push_back(groups_.charts[c].second);
+        stack.push_back(groups_.charts[c].first);
+      }
+    }
+    return !failures.empty();
+  }
+
+  // Pairs that are above the bound together, but not with a dart or two that are shorter than their border.
+  void MergeWithDarts() {
+    constexpr double kWorthTrying = 1.4;
+    std::set<std::pair<int, int>> failed;
+    while (greedy_.MayMergeMore()) {
+      groups_.FindBorders();
+      std::vector<std::tuple<double, int, int>> pairs;
+      for (int a = 0; a < static_cast<int>(groups_.charts.size()); ++a)
+        for (const auto& [b, length] : groups_.charts[a].borders) {
+          if (a > b || !groups_.MayStandTogether(groups_.PartsOfBoth(a, b)) || failed.count({a, b}) > 0)
+            continue;
+          const double stretch = groups_.Trial(groups_.PartsOfBoth(a, b)).stretch;
+          if (stretch > 0 && stretch < kWorthTrying) pairs.push_back({stretch, a, b});
+        }
+      std::sort(pairs.begin(), pairs.end());
+      bool merged = false;
+      for (const auto& [stretch, a, b] : pairs) {
+        if (!FlatWithDarts(a, b)) {
+          failed.insert({a, b});
+          continue;
+        }
+        groups_.charts[groups_.Join(a, b, groups_.Trial(groups_.PartsOfBoth(a, b)))].verified = true;
+        merged = true;
+        break;
+      }
+      if (!merged) return;
+    }
+  }
+
+  bool FlatWithDarts(int a, int b) {
+    const std::vector<int> both = groups_.PartsOfBoth(a, b);
+    for (const bool coarse : {true, false}) {
+      double cut_length = 0;
+      const ChartPatch open =
+          Opened(coarse ? groups_.parts.CoarsePatch(both) : groups_.parts.FinePatch(both), cut_length);
+      DartGoal goal;
+      goal.l2_stretch = coarse ? groups_.CoarseBound() : groups_.bound;
+      goal.linf_stretch = kNoBound;
+      goal.longest = groups_.params.max_dart_percent / 100 * open.Diagonal();
+      goal.most_length = groups_.charts[a].borders[b] * groups_.parts.Unit();
+      const DartedChart darted = CutStretchDarts(open, nullptr, goal, groups_.Poll());
+      if (!darted.flat.ok || darted.flat.l2_stretch > goal.l2_stretch) return false;
+      if (!OverlappingPairs(OnGrid(darted.flat.uv, darted.patch.mesh.triangles), 1).empty()) return false;
+    }
+    return true;
+  }
+
+  ChartGroups<MeshType>& groups_;
+  GreedyMerger<MeshType> greedy_;
+  KnownFlattenings& known_;
+};
+
+}  // namespace dcharts

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <queue>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "surface/chart_groups.h"
+
+namespace dcharts {
+
+/// Merges the pair of neighbours first that adds the least cost: stretch less the price of the seam it saves.
+template <class MeshType>
+class GreedyMerger {
+ public:
+  explicit GreedyMerger(ChartGroups<MeshType>& groups) : groups_(groups) {}
+
+  /// There are more charts than asked for, or no number was asked for.
+  bool MayMergeMore() const {
+    return groups_.params.target_charts == 0 || groups_.alive > groups_.params.target_charts;
+  }
+
+  /// Until there are as many charts as asked for or no pair is left that keeps within groups.bound; without
+  /// either, until no merge lowers the cost.
+  void Run() {
+    StartQueue();
+    while (!queue_.empty() && MayMergeMore()) {
+      const auto [later, key, a, b, tried] = queue_.top();
+      queue_.pop();
+      if (!groups_.charts[a].alive || !groups_.charts[b].alive) continue;
+      if (!tried)
+        TryPair(a, b);
+      else if (groups_.params.target_charts > 0 || groups_.bound < ChartGroups<MeshType>::kNoBound || key < 0)
+        AcceptPair(a, b);
+    }
+  }
+
+  /// The two are not to be merged.
+  void Refuse(int a, int b) { unions_[{a, b}].refused = true; }
+
+  /// After groups.bound was raised: what exceeded it is tried again.
+  void ForgetFailures() {
+    for (auto& entry : unions_) entry.second.tried &= entry.second.trial.flat;
+  }
+
+ private:
+  // What is known of the union of two charts.
+  struct Union {
+    bool tried = false;
+    ChartTrial trial{};       // when tried
+    double least_energy = 0;  // times area
+    bool refused = false;     // on the fine surface
+  };
+
+  void StartQueue() {
+    queue_ = {};
+    groups_.FindBorders();
+    std::vector<std::vector<int>> untried;
+    for (int a = 0; a < static_cast<int>(groups_.charts.size()); ++a)
+      for (const auto& [b, length] : groups_.charts[a].borders)
+        if (a < b && !unions_[{a, b}].tried) untried.push_back(groups_.PartsOfBoth(a, b));
+    groups_.TryAll(untried);
+    for (int a = 0; a < static_cast<int>(groups_.charts.size()); ++a)
+      for (const auto& [b, length] : groups_.charts[a].borders)
+        if (a < b && !unions_[{a, b}].tried) Record(a, b);
+    for (int a = 0; a < static_cast<int>(groups_.charts.size()); ++a)
+      for (const auto& [b, length] : groups_.charts[a].borders)
+        if (a < b) Push(a, b);
+  }
+
+  void Record(int a, int b) {
+    Union& both = unions_[{a, b}];
+    both.tried = true;
+    both.trial = groups_.Trial(groups_.PartsOfBoth(a, b));
+    if (both.trial.flat)
+      both.least_energy = both.trial.energy * (groups_.charts[a].area + groups_.charts[b].area);
+  }
+
+  void TryPair(int a, int b) {
+    Record(a, b);
+    Push(a, b);
+  }
+
+  // Queues a pair under what its merge costs, or costs at least, unless it is out of the question.
+  void Push(int a, int b) {
+    const Union& both = unions_[{a, b}];
+    if (both.refused || (both.tried && !both.trial.flat)) return;
+    if (!groups_.apart.empty() && !groups_.MayStandTogether(groups_.PartsOfBoth(a, b))) return;
+    double saved = groups_.charts[a].borders[b];
+    if (both.tried)
+      saved -= groups_.CutLength(both.trial) - groups_.CutLength(groups_.charts[a].trial) -
+               groups_.CutLength(groups_.charts[b].trial);
+    const double key = both.least_energy - groups_.Energy(a) - groups_.Energy(b) - groups_.SeamCost(saved);
+    // A tiny chart is hard to place once the charts around it are large: it comes first.
+    constexpr double kTiny = 0.003;
+    const bool later = std::min(groups_.charts[a].area, groups_.charts[b].area) > kTiny;
+    queue_.push({later, key, a, b, both.tried});
+  }
+
+  void AcceptPair(int a, int b) {
+    Union& both = unions_[{a, b}];
+    // Near the bound the coarse chart doesn't tell.
+    constexpr double kClearlyWithin = 0.5;
+    if (both.trial.stretch - 1 > kClearlyWithin * (groups_.bound - 1) &&
+        !TryChart(groups_.parts.FinePatch(groups_.PartsOfBoth(a, b)), groups_.bound, groups_.Poll()).flat) {
+      both.refused = true;
+      return;
+    }
+    const int n = groups_.Join(a, b, both.trial);
+    for (int x : {a, b})
+      for (const auto& [c, length] : groups_.charts[x].borders)
+        if (c != a && c != b) groups_.charts[n].borders[c] += length;
+    for (const auto& [c, length] : groups_.charts[n].borders) {
+      groups_.charts[c].borders.erase(a);
+      groups_.charts[c].borders.erase(b);
+      groups_.charts[c].borders[n] = length;
+      // Least energies are superadditive: E(abc) >= E(ac) + E(b).
+      double& least = unions_[{c, n}].least_energy;
+      least = groups_.Energy(n) + groups_.Energy(c);
+      for (const auto& [x, other] : {std::pair{a, b}, std::pair{b, a}}) {
+        const auto known = unions_.find({std::min(c, x), std::max(c, x)});
+        if (known != unions_.end())
+          least = std::max(least, known->second.least_energy + groups_.Energy(other));
+      }
+      Push(c, n);
+    }
+  }
+
+  ChartGroups<MeshType>& groups_;
+  std::map<std::pair<int, int>, Union> unions_;
+  using Item = std::tuple<bool, double, int, int, bool>;  // not tiny, cost, charts, whether it is exact
+  std::priority_queue<Item, std::vector<Item>, std::greater<>> queue_;
+};
+
+}  // namespace dcharts
