@@ -42,6 +42,8 @@ SurfaceData SurfaceOf(const ChartMesh& mesh) {
 dcharts::Params AsInThePaper(int chart_count) {
   dcharts::Params params;
   params.chart_count = chart_count;
+  params.compactness_weight = 0.7;
+  params.straightness_weight = 0.5;
   params.max_stretch = 0;
   params.straighten_by = dcharts::StraightenMethod::kShortestPath;
   params.merge_by = dcharts::MergeMethod::kBoundaryRegion;

@@ -57,6 +57,19 @@ class StageByStage : public testing::TestWithParam<Coarse> {};
 INSTANTIATE_TEST_SUITE_P(Pipeline, StageByStage, testing::ValuesIn(kCoarse),
                          [](const testing::TestParamInfo<Coarse>& shape) { return shape.param.name; });
 
+TEST(Stages, GiveTheSameBytesWithNearlyAsManySeedsAsFaces) {
+  for (const SurfaceData& mesh : {shapes::BowTie(), shapes::NonManifoldFin()})
+    for (int count : {20, 56, 1000}) {
+      Params params;
+      params.chart_count = count;
+      Progress progress;
+      const SurfaceChange once = TextureAtlas(mesh, params, progress);
+      const SurfaceChange stages = RunAll(mesh, params, Kept::kFile, kAllStages);
+      EXPECT_EQ(stages.chart_ids, once.chart_ids) << count;
+      EXPECT_TRUE(stages.wedge_texcoords == once.wedge_texcoords) << count;
+    }
+}
+
 TEST_P(StageByStage, GivesTheSameBytesAsOneShot) {
   const SurfaceData mesh = GetParam().make();
   for (bool to_disk : {false, true}) {

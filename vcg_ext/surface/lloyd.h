@@ -123,13 +123,17 @@ class Lloyd {
     return static_cast<double>(changed) / static_cast<double>(std::max<size_t>(assigned, 1));
   }
 
-  // A chart of a face or two could not grow: its place is a hole for Fill.
+  // A chart of a face or two could not grow: its place is a hole for Fill. Where all are so small there is no
+  // other to fill it from.
   void RemoveSpecks(ChartIds& ids) const {
     constexpr size_t kSpeck = 3;
     if (ids.size() < 10 * kSpeck) return;
-    for (const auto& faces : FacesOfCharts(ids))
-      if (faces.size() < kSpeck)
-        for (int f : faces) ids[f] = kUnassigned;
+    const auto charts = FacesOfCharts(ids);
+    const auto is_speck = [](const std::vector<int>& faces) { return faces.size() < kSpeck; };
+    if (!std::all_of(charts.begin(), charts.end(), is_speck))
+      for (const auto& faces : charts)
+        if (is_speck(faces))
+          for (int f : faces) ids[f] = kUnassigned;
     SplitAndCompact(surface_, ids);
   }
 
