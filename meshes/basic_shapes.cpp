@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "common/pi.h"
 #include "implicit_mesh.h"
 #include "mesh_builder.h"
 #include "shapes.h"
@@ -17,7 +18,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kWeldDistance = 1e-7;
 
 /// Grid of n by m cells over the unit square, mapped to space.

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "common/pi.h"
 #include "mesh_builder.h"
 #include "shapes.h"
 
@@ -13,8 +14,6 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-constexpr double kPi = 3.14159265358979323846;
 
 // All lengths of the part; z = 0 is its underside.
 constexpr double kPlateHeight = 0.3, kBossHeight = 0.75;

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "common/pi.h"
 #include "planar_mesh.h"
 
 namespace dcharts::shapes {
@@ -51,7 +52,6 @@ void MeshBuilder::AddFan(const std::vector<int>& ring, int apex) {
 }
 
 std::vector<int> MeshBuilder::AddRing(const Eigen::Vector2d& centre, double radius, int n, double z) {
-  constexpr double kPi = 3.14159265358979323846;
   std::vector<int> ring;
   for (int i = 0; i < n; ++i) {
     const double angle = 2 * kPi * i / n;

@@ -3,12 +3,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/pi.h"
 #include "shapes.h"
 
 namespace dcharts::shapes {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kExact = 1e-12;
 
 ShapeFacts Sheet(int boundary_loops, int euler, double area, double tolerance, Developable developable) {

@@ -12,10 +12,10 @@
 
 #include <Eigen/Geometry>
 
+#include "common/pi.h"
+
 namespace dcharts::fuzz {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // The standard's distributions differ between libraries, its engines don't.
 class Random {

@@ -9,10 +9,10 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "common/pi.h"
+
 namespace dcharts {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 struct Patch {
   std::vector<double> areas;

@@ -10,10 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include "common/pi.h"
+
 namespace dcharts {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // A closed polygon as the packer wants it: two rows per edge.
 Points2 Outline(const std::vector<Eigen::Vector2d>& polygon) {

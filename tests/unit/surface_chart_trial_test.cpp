@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/pi.h"
 #include "surface/patch_paths.h"
 #include "surface_fixture.h"
 
@@ -71,7 +72,6 @@ TEST(ChartTrial, ALargerCapCostsMore) {
 
 // A ramp that winds around an axis one and a half times: laid flat without stretch, it lies on itself.
 TEST(ChartTrial, WhatOverlapsItselfIsNotFlat) {
-  constexpr double kPi = 3.14159265358979323846;
   for (double turns : {0.5, 1.5}) {
     SurfaceData mesh = shapes::Grid(60, 3);
     for (auto& p : mesh.vertices) {

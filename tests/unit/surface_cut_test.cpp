@@ -10,14 +10,13 @@
 
 #include <gtest/gtest.h>
 
+#include "common/pi.h"
 #include "surface_fixture.h"
 
 namespace dcharts {
 namespace {
 
 using test::TestSurface;
-
-constexpr double kPi = 3.14159265358979323846;
 
 struct CutResult {
   ChartIds ids;

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/pi.h"
 #include "surface/fill.h"
 #include "surface/lloyd.h"
 #include "surface_fixture.h"
@@ -18,8 +19,6 @@ namespace dcharts {
 namespace {
 
 using test::TestSurface;
-
-constexpr double kPi = 3.14159265358979323846;
 
 ChartIds Straightened(const TestSurface& surface, ChartIds ids, const GraphCutOptions& options = {}) {
   Progress progress;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 namespace dcharts {
 
 /// How a chart is laid flat.
@@ -80,6 +83,11 @@ struct Params {
   int padding = 2;                             ///< free texels between charts, 0..texture_size / 4
   bool rotate = true;                          ///< charts may be turned for packing
   DensityBy density_by = DensityBy::kUniform;  ///< how large charts are beside each other
+
+  /// What max_stretch stands for: the bound, infinity where there is none.
+  double StretchBound() const {
+    return max_stretch > 0 ? std::max(1.0, max_stretch) : std::numeric_limits<double>::infinity();
+  }
 };
 
 }  // namespace dcharts

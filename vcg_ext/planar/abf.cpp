@@ -8,12 +8,12 @@
 #include <numeric>
 #include <utility>
 
+#include "common/pi.h"
 #include "planar/boundary_loops.h"
 
 namespace dcharts {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kLargestUpdate = 0.5;    // of an angle itself, per step
 constexpr double kLeastCurvature = 0.25;  // of the objective's own; keeps the Hessian positive
 constexpr double kRegularization = 1e-10;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/errors.h"
+#include "common/pi.h"
 #include "planar/packing_board.h"
 #include "planar/packing_compact.h"
 #include "planar/packing_squeeze.h"
@@ -17,8 +18,6 @@
 
 namespace dcharts {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 Points2 Turned(const Points2& points, double angle) {
   Eigen::Matrix2d r;

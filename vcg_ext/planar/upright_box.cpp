@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planar/upright_box.h"
 
+#include "common/pi.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,8 +10,6 @@
 
 namespace dcharts {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Counterclockwise hull, by Andrew's monotone chain.
 std::vector<Eigen::Vector2d> ConvexHull(const Points2& points) {

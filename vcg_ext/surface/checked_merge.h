@@ -27,20 +27,16 @@ class CheckedMerger {
       : groups_(groups), greedy_(groups), known_(known) {}
 
   void Run() {
-    Merge(Bound());
-    if (greedy_.MayMergeMore() && Bound() < kNoBound) MergeWithDarts();
+    const double bound = groups_.params.StretchBound();
+    Merge(bound);
+    if (greedy_.MayMergeMore() && bound < kNoBound) MergeWithDarts();
     if (groups_.params.target_charts > 0 && greedy_.MayMergeMore()) Merge(kNoBound);
     const auto before = groups_.charts;
-    if (MergeImprover<MeshType>(groups_).Run() && !Unfit().empty()) groups_.charts = before;
+    if (MergeImprover<MeshType>(groups_).Run(before) && !Unfit().empty()) groups_.charts = before;
   }
 
  private:
   static constexpr double kNoBound = ChartGroups<MeshType>::kNoBound;
-
-  // Of every finished chart's L2 stretch.
-  double Bound() const {
-    return groups_.params.max_stretch > 0 ? std::max(1.0, groups_.params.max_stretch) : kNoBound;
-  }
 
   // Merges until done, then has all charts checked on the fine surface; those that fail there are taken
   // apart, and merging goes on with other pairs.
@@ -77,7 +73,7 @@ class CheckedMerger {
           double cut_length = 0;
           patches[k] = Opened(patches[k], cut_length);
           FlattenOptions options;
-          options.l2_bound = Bound();
+          options.l2_bound = groups_.params.StretchBound();
           flat[k] = Flatten(patches[k].mesh, options, poll);
           if (flat[k].ok)
             overlaps[k] = OverlappingPairs(OnGrid(flat[k].uv, patches[k].mesh.triangles), kMostOverlaps);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "common/pi.h"
 #include "surface/surface_graph.h"
 
 namespace dcharts {
@@ -24,7 +25,7 @@ double DihedralAngle(const SurfaceGraph<MeshType>& surface, int half_edge) {
 /// every edge of a round shape bends, and none is a crease.
 template <class MeshType>
 std::vector<double> CreaseWeights(const SurfaceGraph<MeshType>& surface) {
-  constexpr double kDegree = 3.14159265358979323846 / 180;
+  constexpr double kDegree = kPi / 180;
   // Vertex noise of 5 % of the edge length bends edges by about 7 degrees, seldom by 25.
   constexpr double kSmooth = 25 * kDegree, kSharp = 45 * kDegree;
   // Cheap enough to draw borders to creases; cheaper still, they zigzag where a crease fades out.

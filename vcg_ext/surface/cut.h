@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -93,8 +92,7 @@ class ChartCutter {
   // still above the bound is parted.
   int CutByStretch(ChartIds& ids, SeamMask& seams, KnownFlattenings& known) {
     const bool may_part = params_.max_stretch > 0 && params_.target_charts == 0;
-    const double bound =
-        params_.max_stretch > 0 ? params_.max_stretch : std::numeric_limits<double>::infinity();
+    const double bound = params_.StretchBound();
     int count = 0, above = 0;
     std::vector<char> done(surface_.FaceCount(), 0);
     for (bool again = true; again;) {
@@ -113,7 +111,8 @@ class ChartCutter {
         for (int f : faces) done[f] = 1;
         const bool good = chart.flat.ok && chart.flat.l2_stretch <= bound;
         if (!good && may_part && faces.size() > 1) {
-          PartChart(extractor.Extract(faces), next_id++, ids, seams);
+          const ChartPatch whole = extractor.Extract(faces);
+          PartChart(whole, Bisect(whole), next_id++, ids, seams);
           for (int f : faces) done[f] = 0;
           again = true;
           continue;
@@ -142,16 +141,6 @@ class ChartCutter {
     goal.longest = params_.max_dart_percent / 100 * patch.Diagonal();
     goal.unit = std::sqrt(surface_.TotalArea());
     return goal;
-  }
-
-  void PartChart(const ChartPatch& patch, int new_id, ChartIds& ids, SeamMask& seams) const {
-    const std::vector<int> side = Bisect(patch);
-    for (size_t k = 0; k < side.size(); ++k)
-      if (side[k] == 1) ids[patch.faces[k]] = new_id;
-    for (int h = 0; h < patch.HalfEdgeCount(); ++h) {
-      const int o = patch.opposite[h];
-      if (o >= 0 && side[h / 3] != side[o / 3]) SetSeam(seams, patch.SurfaceHalfEdge(h));
-    }
   }
 
   int CutByFittingError(const ChartIds& ids, SeamMask& seams) {

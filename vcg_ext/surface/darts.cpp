@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/pi.h"
 #include "surface/open_chart.h"
 #include "surface/patch_paths.h"
 
 namespace dcharts {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// A part of the chart that won't lie flat: the vertices a dart may run to, and the curvature that is to be
 /// let out.
@@ -85,9 +84,7 @@ Darts PlanDarts(const ChartPatch& patch, const std::vector<double>& fitting_erro
   Darts darts;
   if (params.max_dart_percent <= 0) return darts;
   PatchPaths paths(patch), disk(patch);
-  std::vector<int> sources;
-  for (int v = 0; v < patch.VertexCount(); ++v)
-    if (paths.OnBoundary(v)) sources.push_back(v);
+  std::vector<int> sources = paths.BoundaryVertices();
   const std::vector<double> defect = AngleDefects(patch, paths);
   std::vector<Region> regions;
   AddErrorRegions(patch, fitting_error, params.dart_fitting_error, defect, regions);

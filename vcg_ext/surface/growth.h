@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/params.h"
+#include "common/pi.h"
 #include "planar/cone_proxy.h"
 #include "surface/charts.h"
 #include "surface/seeds.h"
@@ -137,7 +138,6 @@ class Growth {
       }
       // An F of 0 would make every cost 0 and the order arbitrary.
       constexpr double kFloor = 1e-3;
-      constexpr double kPi = 3.14159265358979323846;
       const double straightness = inner > 0 ? outer / inner : (outer > 0 ? 1e6 : 0);
       entry.cost = std::pow(error + kFloor, alpha_) * std::pow(kPi * entry.distance * entry.distance, beta_) *
                    std::pow(straightness, gamma_);

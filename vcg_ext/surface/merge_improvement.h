@@ -19,9 +19,9 @@ class MergeImprover {
  public:
   explicit MergeImprover(ChartGroups<MeshType>& groups) : groups_(groups) {}
 
+  /// `before`: a copy of the charts, those that were merged on the way too; they are the groups that move.
   /// Returns whether anything changed. Charts that changed have no children and are not verified.
-  bool Run() {
-    const auto before = groups_.charts;
+  bool Run(const std::vector<typename ChartGroups<MeshType>::Chart>& before) {
     std::vector<int> owner = groups_.Owners();
     constexpr int kMostSteps = 20;
     bool any = false;

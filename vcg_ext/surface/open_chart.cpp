@@ -6,13 +6,12 @@
 #include <numeric>
 #include <tuple>
 
+#include "common/pi.h"
 #include "common/union_find.h"
 #include "surface/patch_paths.h"
 
 namespace dcharts {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 int FarthestFromCentre(const ChartPatch& patch) {
   const Eigen::RowVector3d centre = patch.mesh.positions.colwise().mean();

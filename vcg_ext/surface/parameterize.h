@@ -48,6 +48,7 @@ class Parameterizer {
     state_.assign(surface_.FaceCount(), State::kToFlatten);
     splits_.assign(surface_.FaceCount(), 0);
     cut_off_.assign(surface_.FaceCount(), 0);
+    note_of_.assign(surface_.FaceCount(), -1);
     constexpr int kAttempts =
         4;  // rounding to the texture's grid may show an overlap that wasn't there before
     for (int attempt = 0;; ++attempt) {
@@ -129,7 +130,7 @@ class Parameterizer {
   void LayFlat(Piece& piece, FlattenMethod method, const std::function<void()>& poll) const {
     FlattenOptions options;
     options.method = method;
-    if (params_.max_stretch > 0) options.l2_bound = params_.max_stretch;
+    options.l2_bound = params_.StretchBound();
     const Flattening* known =
         method == FlattenMethod::kStretchMinimizing ? known_.Find(piece.patch) : nullptr;
     Flattening flat = known ? *known : Flatten(piece.patch.mesh, options, poll);
@@ -160,10 +161,8 @@ class Parameterizer {
   }
 
   void Store(const Piece& piece) {
-    for (int f : piece.patch.faces) {
-      notes_.erase(f);
-      if (!piece.note.empty()) notes_[f] = piece.note;
-    }
+    for (int f : piece.patch.faces) note_of_[f] = static_cast<int>(notes_.size());
+    notes_.push_back(piece.note);
     for (int h = 0; h < piece.patch.HalfEdgeCount(); ++h) {
       auto& wedge = wedge_[piece.patch.faces[h / 3]];
       wedge[2 * (h % 3)] = piece.uv(piece.patch.Vertex(h), 0);
@@ -172,10 +171,11 @@ class Parameterizer {
   }
 
   void LogNotes(const ChartIds& ids) {
-    std::map<int, std::string> of_chart;
-    for (const auto& [face, note] : notes_) of_chart[ids[face]] = note;
-    for (const auto& [chart, note] : of_chart)
-      progress_.Log("chart " + std::to_string(chart) + ": " + note + ".");
+    std::vector<int> of_chart(ChartCount(ids), -1);
+    for (int f = 0; f < surface_.FaceCount(); ++f)
+      if (note_of_[f] >= 0 && !notes_[note_of_[f]].empty()) of_chart[ids[f]] = note_of_[f];
+    for (size_t c = 0; c < of_chart.size(); ++c)
+      if (of_chart[c] >= 0) progress_.Log("chart " + std::to_string(c) + ": " + notes_[of_chart[c]] + ".");
   }
 
   // Keeps a good piece, cuts or splits another.
@@ -217,15 +217,8 @@ class Parameterizer {
 
   void SplitPiece(const ChartPatch& patch, const std::vector<int>& side, State next, ChartIds& ids,
                   SeamMask& seams, int& next_id) {
-    for (size_t k = 0; k < patch.faces.size(); ++k) {
-      state_[patch.faces[k]] = next;
-      if (side[k] == 1) ids[patch.faces[k]] = next_id;
-    }
-    ++next_id;
-    for (int h = 0; h < patch.HalfEdgeCount(); ++h) {
-      const int o = patch.opposite[h];
-      if (o >= 0 && side[h / 3] != side[o / 3]) SetSeam(seams, patch.SurfaceHalfEdge(h));
-    }
+    for (int f : patch.faces) state_[f] = next;
+    PartChart(patch, side, next_id++, ids, seams);
   }
 
   // Of a chart split at an overlap, the smaller part may be joined to another chart.
@@ -296,8 +289,7 @@ class Parameterizer {
     const auto poll = [&] { progress_.Poll(); };
     LayFlat(piece, FlattenMethod::kStretchMinimizing, poll);
     constexpr double kWorthIt = 1.02;
-    const double bound = params_.max_stretch > 0 ? std::min(kWorthIt, params_.max_stretch) : kWorthIt;
-    if (!piece.flat || piece.l2_stretch > bound) return false;
+    if (!piece.flat || piece.l2_stretch > std::min(kWorthIt, params_.StretchBound())) return false;
     if (params_.method != FlattenMethod::kStretchMinimizing) LayFlat(piece, params_.method, poll);
     if (!piece.flat) return false;
     if (!OverlappingPairs(OnGrid(piece.uv, piece.patch.mesh.triangles), 1).empty()) return false;
@@ -379,11 +371,12 @@ class Parameterizer {
   Progress& progress_;
   bool all_disks_ = false;
   std::vector<std::array<double, 6>>
-      wedge_;                         // of finished charts, each in its own frame, at the surface's scale
-  std::map<int, std::string> notes_;  // per face, on how its chart was flattened
-  std::vector<State> state_;          // the same for all faces of a chart
-  std::vector<int> splits_;           // how often the face's chart was split because of overlaps
-  std::vector<char> cut_off_;         // the face belongs to a part that was cut off because of an overlap
+      wedge_;                       // of finished charts, each in its own frame, at the surface's scale
+  std::vector<std::string> notes_;  // on how charts were flattened
+  std::vector<int> note_of_;        // per face, -1 before it was flattened
+  std::vector<State> state_;        // the same for all faces of a chart
+  std::vector<int> splits_;         // how often the face's chart was split because of overlaps
+  std::vector<char> cut_off_;       // the face belongs to a part that was cut off because of an overlap
 };
 
 }  // namespace dcharts

@@ -77,6 +77,13 @@ void PatchPaths::Run(const std::vector<int>& sources, bool inside_only) {
   }
 }
 
+std::vector<int> PatchPaths::BoundaryVertices() const {
+  std::vector<int> vertices;
+  for (int v = 0; v < patch_.VertexCount(); ++v)
+    if (on_boundary_[v]) vertices.push_back(v);
+  return vertices;
+}
+
 int PatchPaths::Before(int vertex) const {
   const int h = from_[vertex];
   return patch_.Vertex(h) == vertex ? patch_.Vertex(Next(h)) : patch_.Vertex(h);

@@ -31,6 +31,7 @@ class PatchPaths {
     return from_[vertex];
   }  ///< a half-edge of the last edge of the path, -1 at a source
   bool OnBoundary(int vertex) const { return on_boundary_[vertex]; }
+  std::vector<int> BoundaryVertices() const;
   /// The other end of the last edge.
   int Before(int vertex) const;
   /// The half-edges (one per edge) from `vertex` back to its source.

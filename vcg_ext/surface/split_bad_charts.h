@@ -36,10 +36,7 @@ void SplitBadCharts(const SurfaceGraph<MeshType>& surface, double bound, Progres
         continue;
       }
       again = true;
-      const std::vector<int> side = Bisect(patches[k]);
-      for (size_t i = 0; i < faces.size(); ++i)
-        if (side[i] == 1) ids[faces[i]] = next_id;
-      ++next_id;
+      GiveSideAnId(patches[k], Bisect(patches[k]), next_id++, ids);
     }
     if (again) SplitAndCompact(surface, ids);
   }

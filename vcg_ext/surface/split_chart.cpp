@@ -113,4 +113,18 @@ std::vector<int> Bisect(const ChartPatch& patch) {
   return Sides(face_count, MinCut(face_count, DualEdges(patch), sources, sinks));
 }
 
+void GiveSideAnId(const ChartPatch& patch, const std::vector<int>& side, int new_id, ChartIds& ids) {
+  for (size_t k = 0; k < side.size(); ++k)
+    if (side[k] == 1) ids[patch.faces[k]] = new_id;
+}
+
+void PartChart(const ChartPatch& patch, const std::vector<int>& side, int new_id, ChartIds& ids,
+               SeamMask& seams) {
+  GiveSideAnId(patch, side, new_id, ids);
+  for (int h = 0; h < patch.HalfEdgeCount(); ++h) {
+    const int o = patch.opposite[h];
+    if (o >= 0 && side[h / 3] != side[o / 3]) SetSeam(seams, patch.SurfaceHalfEdge(h));
+  }
+}
+
 }  // namespace dcharts

@@ -16,4 +16,11 @@ std::vector<int> SplitAtOverlaps(const ChartPatch& patch, const std::vector<std:
 /// Parts a chart of two or more faces between two far faces, by the shortest seam about half-way.
 std::vector<int> Bisect(const ChartPatch& patch);
 
+/// The faces on side 1 become chart `new_id`.
+void GiveSideAnId(const ChartPatch& patch, const std::vector<int>& side, int new_id, ChartIds& ids);
+
+/// The same, and the edges between the sides become seams.
+void PartChart(const ChartPatch& patch, const std::vector<int>& side, int new_id, ChartIds& ids,
+               SeamMask& seams);
+
 }  // namespace dcharts

@@ -14,6 +14,7 @@
 #include "common/progress.h"
 #include "planar/cone_proxy.h"
 #include "planar/min_cut.h"
+#include "surface/chart_topology.h"
 #include "surface/charts.h"
 #include "surface/dual_distance.h"
 
@@ -29,6 +30,7 @@ class ShortestPathStraightener {
         params_(params),
         progress_(progress),
         distance_(surface),
+        topology_(surface),
         fuzzy_(surface.FaceCount(), 0),
         side_(surface.FaceCount(), 0),
         on_path_(surface.HalfEdgeCount(), 0),
@@ -318,30 +320,14 @@ class ShortestPathStraightener {
     std::vector<int> mine;
     for (int f : faces)
       if (ids[f] == chart) mine.push_back(f);
-    if (mine.empty()) return false;
-    ++count_stamp_;
-    face_counted_.resize(surface_.FaceCount(), 0);
-    std::vector<int> stack{mine.front()};
-    face_counted_[mine.front()] = count_stamp_;
-    size_t reached = 0;
-    while (!stack.empty()) {
-      const int f = stack.back();
-      stack.pop_back();
-      ++reached;
-      for (int h = 3 * f; h < 3 * f + 3; ++h) {
-        const int g = surface_.Neighbour(h);
-        if (g < 0 || ids[g] != chart || face_counted_[g] == count_stamp_) continue;
-        face_counted_[g] = count_stamp_;
-        stack.push_back(g);
-      }
-    }
-    return reached == mine.size();
+    return topology_.IsConnected(chart, mine, static_cast<int>(mine.size()), ids);
   }
 
   const SurfaceGraph<MeshType>& surface_;
   const Params& params_;
   Progress& progress_;
   DualDistance<MeshType> distance_;
+  ChartTopology<MeshType> topology_;
   std::vector<std::vector<int>> chart_faces_;  // may hold faces that have left the chart
   std::vector<ConeProxy> proxy_;
   double depth_ = 0;  // of the present fuzzy area
@@ -351,7 +337,7 @@ class ShortestPathStraightener {
   std::vector<int> node_;                    // of a face in the flow network
   std::vector<double> vertex_distance_;
   std::vector<int> vertex_from_, vertex_mark_;
-  std::vector<int> counted_, face_counted_, vertex_counted_;
+  std::vector<int> counted_, vertex_counted_;
   int stamp_ = 0, count_stamp_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/pi.h"
 #include "planar/distortion.h"
 #include "planar/overlap.h"
 #include "surface/open_chart.h"
@@ -55,7 +56,7 @@ bool Helps(const Flattening& before, const Flattening& after, double length, con
 // The vertices at which a chart of flat and rolled parts comes to a point; none when it is curved elsewhere,
 // or in too many places.
 std::vector<int> ConePoints(const ChartPatch& patch, const PatchPaths& paths) {
-  constexpr double kPi = 3.14159265358979323846, kPoint = 0.02, kFlat = 1e-4;
+  constexpr double kPoint = 0.02, kFlat = 1e-4;
   std::vector<int> points;
   const std::vector<double> angle = AngleSums(patch);
   for (int v = 0; v < patch.VertexCount(); ++v) {
@@ -83,10 +84,7 @@ bool CutConePoints(const DartGoal& goal, const std::function<void()>& poll, Dart
   double total_length = 0;
   while (!corner_of.empty()) {
     PatchPaths paths(darted.patch);
-    std::vector<int> border;
-    for (int v = 0; v < darted.patch.VertexCount(); ++v)
-      if (paths.OnBoundary(v)) border.push_back(v);
-    paths.Run(border, true);
+    paths.Run(paths.BoundaryVertices(), true);
     const auto distance = [&](int h) { return paths.Distance(darted.patch.Vertex(h)); };
     const auto nearest = std::min_element(corner_of.begin(), corner_of.end(),
                                           [&](int g, int h) { return distance(g) < distance(h); });
@@ -129,10 +127,7 @@ DartedChart CutStretchDarts(const ChartPatch& patch, const Flattening* known, co
     const ChartPatch& open = chart.patch;
     const std::vector<double> stretch = VertexStretch(open, chart.flat.uv);
     PatchPaths paths(open);
-    std::vector<int> border;
-    for (int v = 0; v < open.VertexCount(); ++v)
-      if (paths.OnBoundary(v)) border.push_back(v);
-    paths.Run(border, true);
+    paths.Run(paths.BoundaryVertices(), true);
     int tip = -1;
     for (int h = 0; h < open.HalfEdgeCount(); ++h) {
       const int v = open.Vertex(h);

@@ -25,8 +25,7 @@ class TrialMerger {
   /// Flattenings of finished charts are left in `known`.
   void Run(ChartIds& ids, KnownFlattenings& known) {
     constexpr double kGood = 1.01;  // a segment that lies flat worse than this is better split
-    const double bound = params_.max_stretch > 0 ? std::clamp(params_.max_stretch, 1.0, kGood) : kGood;
-    SplitBadCharts(surface_, bound, progress_, ids);
+    SplitBadCharts(surface_, std::min(kGood, params_.StretchBound()), progress_, ids);
     ChartParts<MeshType> parts(surface_, ids);
     ChartGroups<MeshType> groups(parts, params_, progress_);
     CheckedMerger<MeshType>(groups, known).Run();
