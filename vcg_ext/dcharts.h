@@ -7,6 +7,7 @@
 #include "common/params.h"
 #include "common/progress.h"
 #include "common/surface_data.h"
+#include "pattern/pattern.h"
 
 namespace dcharts {
 
@@ -21,5 +22,8 @@ SurfaceChange Parameterize(const SurfaceData& mesh, const Params& params, Progre
 SurfaceChange TextureAtlas(const SurfaceData& mesh, const Params& params,
                            Progress& progress);                                            // all of the above
 SurfaceChange Measure(const SurfaceData& mesh, const Params& params, Progress& progress);  // figures only
+
+/// A pattern to sew or to fold (Section 4), from the segmentation on; writes no file. See pattern/pattern.h.
+PatternResult MakePattern(const SurfaceData& mesh, const Params& params, Progress& progress);
 
 }  // namespace dcharts

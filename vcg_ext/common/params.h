@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 
 namespace dcharts {
 
@@ -34,6 +35,24 @@ enum class DartMethod {
 enum class DensityBy {
   kUniform,       ///< nothing: it is the same for all charts
   kVertexQuality  ///< the mean quality of its vertices
+};
+
+/// What a pattern is made of.
+enum class PatternMaterial {
+  kFabric,  ///< sewn and stuffed: pieces are laid flat conformally
+  kPaper    ///< cut, folded and glued: pieces must not stretch
+};
+
+/// The unit of `size`, and of the mesh where size is 0.
+enum class LengthUnit { kMm, kInch };
+
+/// The pages of a printed pattern.
+enum class PageFormat { kSingleSheet, kA4, kA3, kA0, kLetter };
+
+/// What becomes of a piece that is larger than the page.
+enum class Oversize {
+  kTile,       ///< it goes over several pages that are glued together
+  kSplitPiece  ///< it becomes several pieces with a seam between them
 };
 
 /// Every parameter of the pipeline, with its default (written here and nowhere else), unit and range.
@@ -83,6 +102,21 @@ struct Params {
   int padding = 2;                             ///< free texels between charts, 0..texture_size / 4
   bool rotate = true;                          ///< charts may be turned for packing
   DensityBy density_by = DensityBy::kUniform;  ///< how large charts are beside each other
+
+  // --- patterns (4)
+  PatternMaterial material = PatternMaterial::kFabric;
+  LengthUnit units = LengthUnit::kMm;
+  double size = 0;                  ///< longest side of the finished object's axis-aligned box, in `units`,
+                                    ///< 0..100000; 0 = as the mesh is
+  double seam_allowance = 7;        ///< of fabric, mm, 0..100
+  double tab_width = 6;             ///< of paper, mm, 0..100; 0 = no tabs
+  double simplify_tolerance = 0.5;  ///< how far a simplified outline may be from the exact one, mm, 0..100
+  double fold_angle = 15;           ///< paper that bends more sharply gets a fold line, degrees, 0..180
+  bool merge_congruent = false;     ///< pieces of the same shape are drawn once
+  bool print_texture = false;       ///< the model's colours are drawn into the pieces
+  PageFormat page = PageFormat::kSingleSheet;
+  Oversize oversize = Oversize::kTile;
+  std::string output_file;  ///< .svg, .pdf or .dxf; empty = no file
 
   /// What max_stretch stands for: the bound, infinity where there is none.
   double StretchBound() const {
