@@ -7,9 +7,10 @@
 #include "common/params.h"
 #include "common/progress.h"
 #include "common/surface_data.h"
-#include "pattern/pattern.h"
 
 namespace dcharts {
+
+struct PatternResult;  // pattern/pattern.h
 
 /// Each returns what is to be written back. All throw Error (refused input, with a sentence for the user) and
 /// Cancelled; the input is never touched. `params` are taken to be in range.
@@ -23,7 +24,7 @@ SurfaceChange TextureAtlas(const SurfaceData& mesh, const Params& params,
                            Progress& progress);                                            // all of the above
 SurfaceChange Measure(const SurfaceData& mesh, const Params& params, Progress& progress);  // figures only
 
-/// A pattern to sew or to fold (Section 4), from the segmentation on; writes no file. See pattern/pattern.h.
+/// A pattern to sew or to fold (Section 4), from the segmentation on; writes no file.
 PatternResult MakePattern(const SurfaceData& mesh, const Params& params, Progress& progress);
 
 }  // namespace dcharts
