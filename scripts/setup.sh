@@ -14,7 +14,7 @@ build=$repo/build
 
 # What building the plugin and running it in pymeshlab takes on a bare Debian 12.
 build_packages=(build-essential cmake ninja-build python3-venv ca-certificates qtbase5-dev libqt5opengl5-dev libeigen3-dev
-  libboost-dev libglew-dev libglu1-mesa-dev libgl1 libopengl0)
+  libboost-dev libhpdf-dev libpng-dev libglew-dev libglu1-mesa-dev libgl1 libopengl0)
 
 say() { printf '%s\n' "$*" >&2; }
 fail() {
