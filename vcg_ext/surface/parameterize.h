@@ -42,18 +42,11 @@ class Parameterizer {
   /// texcoords. `face_density`: per face its texels per length beside other faces, of which a chart gets the
   /// mean; empty = all alike.
   WedgeTexcoords Run(ChartIds& ids, SeamMask& seams, const std::vector<double>& face_density) {
-    ChartCutter<MeshType> cutter(surface_, params_, progress_);
-    cutter.OpenHandles(ids, seams);
-    all_disks_ = AllDisks(ids, seams);
-    state_.assign(surface_.FaceCount(), State::kToFlatten);
-    splits_.assign(surface_.FaceCount(), 0);
-    cut_off_.assign(surface_.FaceCount(), 0);
-    note_of_.assign(surface_.FaceCount(), -1);
+    LayFlatApart(ids, seams);
     constexpr int kAttempts =
         4;  // rounding to the texture's grid may show an overlap that wasn't there before
     for (int attempt = 0;; ++attempt) {
-      FlattenAll(ids, seams);
-      if (attempt == 0) RejoinCutOffs(ids, seams);
+      if (attempt > 0) FlattenAll(ids, seams);
       WedgeTexcoords uv;
       const std::vector<int> bad_charts = PackAndRound(ids, seams, face_density, uv);
       if (bad_charts.empty() || attempt == kAttempts) {
@@ -67,6 +60,21 @@ class Parameterizer {
       for (int f = 0; f < surface_.FaceCount(); ++f)
         if (std::binary_search(bad_charts.begin(), bad_charts.end(), ids[f])) state_[f] = State::kToBisect;
     }
+  }
+
+  /// What Run does before it packs: every chart is flat without overlap. Returns, per face, u0 v0 u1 v1 u2
+  /// v2, each chart in a frame of its own, at the surface's scale.
+  const std::vector<std::array<double, 6>>& LayFlatApart(ChartIds& ids, SeamMask& seams) {
+    ChartCutter<MeshType> cutter(surface_, params_, progress_);
+    cutter.OpenHandles(ids, seams);
+    all_disks_ = AllDisks(ids, seams);
+    state_.assign(surface_.FaceCount(), State::kToFlatten);
+    splits_.assign(surface_.FaceCount(), 0);
+    cut_off_.assign(surface_.FaceCount(), 0);
+    note_of_.assign(surface_.FaceCount(), -1);
+    FlattenAll(ids, seams);
+    RejoinCutOffs(ids, seams);
+    return wedge_;
   }
 
  private:

@@ -9,6 +9,7 @@
 #include "surface/cut.h"
 #include "surface/fill.h"
 #include "surface/lloyd.h"
+#include "surface/make_charts.h"
 #include "surface/merge.h"
 #include "surface/parameterize.h"
 #include "surface/straighten.h"
@@ -173,36 +174,39 @@ SurfaceChange Parameterize(const SurfaceData& mesh, const Params& params, Progre
   return change;
 }
 
+void MakeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, double share,
+                Progress& progress, ChartIds& ids, SeamMask& seams, KnownFlattenings& known, Report& report) {
+  {
+    Stage stage("segment", "Growing charts...", 0, 0.25 * share, progress, report);
+    Segmentation result = Lloyd<SurfaceMesh>(surface, params, progress).Run();
+    ids = std::move(result.ids);
+    report.iterations = result.iterations;
+  }
+  {
+    Stage stage("fill", "Filling holes...", 0.25 * share, 0.275 * share, progress, report);
+    HoleFiller<SurfaceMesh>(surface, params, progress).Run(ids);
+  }
+  {
+    Stage stage("straighten", "Straightening boundaries...", 0.275 * share, 0.3125 * share, progress, report);
+    StraightenBorders(surface, params, progress, ids);
+  }
+  {
+    Stage stage("merge", "Merging charts...", 0.3125 * share, 0.875 * share, progress, report);
+    MergeCharts(surface, params, progress, ids, known);
+  }
+  Stage stage("cut", "Cutting darts...", 0.875 * share, share, progress, report);
+  report.darts = ChartCutter<SurfaceMesh>(surface, params, progress).Run(ids, seams, known);
+}
+
 SurfaceChange TextureAtlas(const SurfaceData& mesh, const Params& params, Progress& progress) {
   const Workspace work(mesh);
-  const auto& surface = work.Surface();
   SurfaceChange change;
   ChartIds ids;
   SeamMask seams;
   KnownFlattenings known;
-  {
-    Stage stage("segment", "Growing charts...", 0, 0.2, progress, change.report);
-    Segmentation result = Lloyd<SurfaceMesh>(surface, params, progress).Run();
-    ids = std::move(result.ids);
-    change.report.iterations = result.iterations;
-  }
-  {
-    Stage stage("fill", "Filling holes...", 0.2, 0.22, progress, change.report);
-    HoleFiller<SurfaceMesh>(surface, params, progress).Run(ids);
-  }
-  {
-    Stage stage("straighten", "Straightening boundaries...", 0.22, 0.25, progress, change.report);
-    StraightenBorders(surface, params, progress, ids);
-  }
-  {
-    Stage stage("merge", "Merging charts...", 0.25, 0.7, progress, change.report);
-    MergeCharts(surface, params, progress, ids, known);
-  }
-  {
-    Stage stage("cut", "Cutting darts...", 0.7, 0.8, progress, change.report);
-    change.report.darts = ChartCutter<SurfaceMesh>(surface, params, progress).Run(ids, seams, known);
-  }
-  FinishAtlas(work, ids, seams, known, params, progress, 0.8, change);
+  constexpr double kShare = 0.8;
+  MakeCharts(work.Surface(), params, kShare, progress, ids, seams, known, change.report);
+  FinishAtlas(work, ids, seams, known, params, progress, kShare, change);
   if (params.seam_layer) work.WriteSeamLines(seams, change);
   return change;
 }

@@ -21,6 +21,8 @@ class Workspace {
   explicit Workspace(const SurfaceData& data);
 
   const SurfaceGraph<SurfaceMesh>& Surface() const { return surface_; }
+  /// Per face of the surface: its index in the host's mesh. Vertices have the host's numbers.
+  const std::vector<int>& SourceFaces() const { return built_.source_face; }
 
   /// The charts that stand in face quality (ChartIdOfQuality), one per connected piece; all faces alike (or
   /// none with quality) are one chart.

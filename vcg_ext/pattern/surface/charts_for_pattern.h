@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "common/params.h"
+#include "common/progress.h"
+#include "common/surface_data.h"
+#include "pattern/flat_charts.h"
+#include "surface/charts.h"
+#include "surface/known_flattenings.h"
+#include "surface/surface_mesh.h"
+
+namespace dcharts {
+
+/// Lays charts flat for a pattern (Section 4): overlaps are cut off, darts that are not needed are shortened.
+class ChartsForPattern {
+ public:
+  /// `to_mm`: millimetres of the finished object per unit of the surface. All must outlive this.
+  ChartsForPattern(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, double to_mm,
+                   Progress& progress)
+      : surface_(surface), params_(params), to_mm_(to_mm), progress_(progress) {}
+
+  /// `ids` and `seams` change where a chart had to be cut or split, and where a dart is shortened.
+  void Flatten(ChartIds& ids, SeamMask& seams, const KnownFlattenings& known);
+
+  /// Sews up each dart from its tip as far as its legs lie side by side in the plane. Returns how many darts
+  /// became shorter; Flatten does so for fabric.
+  int ShortenDarts(const ChartIds& ids, SeamMask& seams);
+
+  /// The flat charts in mm, at their places on the finished object. `data`, `source_face`: the mesh that the
+  /// surface was made of, and per face of the surface its own there.
+  FlatCharts Take(const ChartIds& ids, const SeamMask& seams, const SurfaceData& data, double data_to_mm,
+                  const std::vector<int>& source_face) const;
+
+ private:
+  Points2 StoredUv(const ChartPatch& patch) const;
+  void Store(const ChartPatch& patch, const Points2& uv);
+
+  const SurfaceGraph<SurfaceMesh>& surface_;
+  const Params& params_;
+  double to_mm_;
+  Progress& progress_;
+  std::vector<std::array<double, 6>> wedge_;  // per face, at the surface's scale
+};
+
+}  // namespace dcharts

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dcharts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "pattern/pattern.h"
+#include "pattern/pattern_steps.h"
+#include "pattern/surface/charts_for_pattern.h"
+#include "surface/make_charts.h"
+#include "surface/parameterize.h"
+#include "surface/workspace.h"
+
+namespace dcharts {
+namespace {
+
+// What the material asks of the charts.
+Params ForMaterial(const Params& params) {
+  Params material = params;
+  if (params.material == PatternMaterial::kFabric) {
+    material.method = FlattenMethod::kConformal;
+  } else {
+    // Paper does not stretch. What little a chart still has is taken up by folding.
+    constexpr double kStrict = 1.0002;
+    material.method = FlattenMethod::kStretchMinimizing;
+    material.max_stretch = std::min(params.StretchBound(), kStrict);
+    material.max_dart_percent = std::max(params.max_dart_percent, Params().max_dart_percent);
+  }
+  return material;
+}
+
+// The longest side of the box of the vertices that faces use.
+double LongestSide(const SurfaceData& mesh) {
+  double longest = 0;
+  for (size_t d = 0; d < 3; ++d) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const auto& face : mesh.faces)
+      for (int v : face) {
+        low = std::min(low, mesh.vertices[v][d]);
+        high = std::max(high, mesh.vertices[v][d]);
+      }
+    longest = std::max(longest, high - low);
+  }
+  return longest;
+}
+
+double LongestSide(const SurfaceGraph<SurfaceMesh>& surface) {
+  Eigen::Vector3d low = surface.Position(0, 0), high = low;
+  for (int h = 0; h < surface.HalfEdgeCount(); ++h) {
+    low = low.cwiseMin(surface.Position(surface.Vertex(h)));
+    high = high.cwiseMax(surface.Position(surface.Vertex(h)));
+  }
+  return (high - low).maxCoeff();
+}
+
+}  // namespace
+
+PatternResult MakePattern(const SurfaceData& mesh, const Params& params, Progress& progress) {
+  const Workspace work(mesh);
+  PatternResult result;
+  const Params material = ForMaterial(params);
+  constexpr double kMillimetresPerInch = 25.4;
+  const double unit = params.units == LengthUnit::kInch ? kMillimetresPerInch : 1;
+  const double model_side = LongestSide(mesh);
+  const double side = params.size > 0 ? params.size * unit : model_side * unit;
+  constexpr double kSmallest = 1, kLargest = 1e5;  // mm
+  if (!(side >= kSmallest && side <= kLargest))
+    throw Error("The finished object would be " + std::to_string(side) +
+                " mm long. Give the size that it is to have in `size`, from 1 mm to 100 m.");
+
+  ChartIds ids;
+  SeamMask seams;
+  KnownFlattenings known;
+  constexpr double kChartsShare = 0.6, kFlatShare = 0.75;
+  MakeCharts(work.Surface(), material, kChartsShare, progress, ids, seams, known, result.report);
+  progress.BeginStage("Flattening charts...", kChartsShare, kFlatShare);
+  const double to_mm = side / LongestSide(work.Surface());
+  ChartsForPattern charts(work.Surface(), material, to_mm, progress);
+  charts.Flatten(ids, seams, known);
+
+  const double scale = side / model_side;
+  result.pattern = PatternOfCharts(charts.Take(ids, seams, mesh, scale, work.SourceFaces()), material,
+                                   progress, kFlatShare, 1);
+  Pattern& pattern = result.pattern;
+  pattern.scale = scale;
+  pattern.piece_of_face.assign(mesh.faces.size(), -1);
+  for (const Piece& piece : pattern.pieces)
+    for (int f : piece.flat.face) pattern.piece_of_face[f] = piece.id;
+  Report& report = result.report;
+  report.charts = static_cast<int>(pattern.pieces.size());
+  report.unassigned_faces = 0;
+  report.seam_length = SeamLength(work.Surface(), seams);
+  report.darts = 0;
+  for (const Piece& piece : pattern.pieces) *report.darts += static_cast<int>(piece.darts.size());
+  return result;
+}
+
+}  // namespace dcharts
