@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace dcharts {
@@ -79,6 +80,8 @@ class SurfaceGraph {
   double Area(int face) const { return area_[face]; }
   double TotalArea() const { return total_area_; }
   const Eigen::Vector3d& Normal(int face) const { return normal_[face]; }  ///< zero for a face without area
+  /// Other normals than those of the triangles, one per face: without noise, say.
+  void SetNormals(std::vector<Eigen::Vector3d> normals) { normal_ = std::move(normals); }
   const Eigen::Vector3d& Centroid(int face) const { return centroid_[face]; }
   const Eigen::Vector3d& Position(int vertex) const { return position_[vertex]; }
   /// The half-edges that start at a vertex, as [begin, end): one per face around it.

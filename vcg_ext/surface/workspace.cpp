@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "surface/denoised_normals.h"
 #include "surface/fill.h"
 #include "surface/texel_density.h"
 
 namespace dcharts {
 
 Workspace::Workspace(const SurfaceData& data)
-    : data_(data), built_(BuildSurface(data, mesh_)), surface_(mesh_) {}
+    : data_(data), built_(BuildSurface(data, mesh_)), surface_(mesh_) {
+  DenoiseNormals(surface_);
+}
 
 ChartIds Workspace::ReadCharts() const {
   ChartIds ids(surface_.FaceCount(), 0);
