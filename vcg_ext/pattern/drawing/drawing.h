@@ -21,6 +21,7 @@ enum class Mark {
   kMountain,  ///< a fold whose ridge is on the printed side
   kValley,
   kTabFold,  ///< between a piece and its glue tab
+  kNet,      ///< of paper: the piece without its tabs, below the lines to cut and to fold
   kRuling,   ///< along which a curved part does not bend
   kLeader,   ///< from a label to what it belongs to
   kSheet     ///< scale bar, frames, tables, registration marks
@@ -30,7 +31,8 @@ struct Line {
   Mark mark = Mark::kCut;
   Polyline points;
   bool closed = false;
-  int seam = -1, side = -1;  ///< of a stitch line: what it is a side of; index into Pattern::seams
+  int seam = -1,
+      side = -1;  ///< of a stitch line and of a net: what it is a side of; index into Pattern::seams
 };
 
 /// One line of text in Helvetica.

@@ -7,6 +7,7 @@ namespace dcharts {
 
 const LineStyle& StyleOf(Mark mark) {
   static const std::map<Mark, LineStyle> styles = {
+      {Mark::kNet, {"net", 14, "CONTINUOUS", 0.08, {}, {200, 200, 200}}},
       {Mark::kRuling, {"fold", 8, "CONTINUOUS", 0.08, {}, {190, 190, 190}}},
       {Mark::kTabFold, {"fold", 8, "DASHED", 0.18, {2, 1.2}, {90, 90, 90}}},
       {Mark::kValley, {"fold", 8, "DASHED", 0.22, {3, 1.5}, {20, 90, 200}}},
@@ -23,9 +24,9 @@ const LineStyle& StyleOf(Mark mark) {
 }
 
 const std::vector<Mark>& AllMarks() {
-  static const std::vector<Mark> marks = {Mark::kRuling, Mark::kTabFold, Mark::kValley, Mark::kMountain,
-                                          Mark::kStitch, Mark::kOpening, Mark::kGrain,  Mark::kNotch,
-                                          Mark::kCut,    Mark::kLeader,  Mark::kSheet};
+  static const std::vector<Mark> marks = {Mark::kNet,      Mark::kRuling, Mark::kTabFold, Mark::kValley,
+                                          Mark::kMountain, Mark::kStitch, Mark::kOpening, Mark::kGrain,
+                                          Mark::kNotch,    Mark::kCut,    Mark::kLeader,  Mark::kSheet};
   return marks;
 }
 

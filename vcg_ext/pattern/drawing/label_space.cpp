@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pattern/drawing/label_space.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dcharts {
+
+namespace {
+
+constexpr double kCell = 8;  // mm
+
+long long CellKey(long long x, long long y) { return (x << 32) ^ (y & 0xffffffffLL); }
+
+// An edge of a separates it from b.
+bool Separated(const std::vector<Point2>& a, const std::vector<Point2>& b, const Point2& axis) {
+  const auto range = [&axis](const std::vector<Point2>& points) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Point2& p : points) {
+      low = std::min(low, axis.dot(p));
+      high = std::max(high, axis.dot(p));
+    }
+    return std::make_pair(low, high);
+  };
+  const auto [low_a, high_a] = range(a);
+  const auto [low_b, high_b] = range(b);
+  return high_a < low_b || high_b < low_a;
+}
+
+bool SeparatedByAnEdgeOf(const std::vector<Point2>& a, const std::vector<Point2>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Point2 edge = a[(i + 1) % a.size()] - a[i];
+    if (Separated(a, b, {-edge.y(), edge.x()})) return true;
+    if (a.size() == 2 && Separated(a, b, edge)) return true;
+  }
+  return false;
+}
+
+std::vector<Point2> CornersOf(const Box& box) {
+  const auto corners = box.Corners();
+  return {corners.begin(), corners.end()};
+}
+
+}  // namespace
+
+bool Overlap(const std::vector<Point2>& a, const std::vector<Point2>& b) {
+  return !SeparatedByAnEdgeOf(a, b) && !SeparatedByAnEdgeOf(b, a);
+}
+
+bool IsInside(const Point2& p, const std::vector<Polyline>& loops) {
+  bool inside = false;
+  for (const Polyline& loop : loops)
+    for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
+      const Point2 &a = loop[i], &b = loop[j];
+      if ((a.y() > p.y()) != (b.y() > p.y()) &&
+          p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x())
+        inside = !inside;
+    }
+  return inside;
+}
+
+template <class Visit>
+bool LabelSpace::AnyNear(const std::vector<Point2>& corners, Visit visit) const {
+  Point2 low = corners[0], high = corners[0];
+  for (const Point2& p : corners) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  for (long long x = std::llround(std::floor(low.x() / kCell)); x * kCell <= high.x(); ++x)
+    for (long long y = std::llround(std::floor(low.y() / kCell)); y * kCell <= high.y(); ++y)
+      if (visit(CellKey(x, y))) return true;
+  return false;
+}
+
+void LabelSpace::Add(std::vector<Point2> corners, int owner) {
+  const int index = static_cast<int>(items_.size());
+  AnyNear(corners, [&](long long key) {
+    cells_[key].push_back(index);
+    return false;
+  });
+  items_.push_back({std::move(corners), owner});
+}
+
+void LabelSpace::AddLine(const Polyline& points, bool closed, int owner) {
+  const std::size_t n = points.size();
+  for (std::size_t i = 0; i + (closed ? 0 : 1) < n; ++i) {
+    // Short steps, so that a long slanting line is not in all cells of its bounding box.
+    const Point2 from = points[i], way = points[(i + 1) % n] - from;
+    const int steps = std::max(1, static_cast<int>(std::ceil(way.norm() / kCell)));
+    for (int k = 0; k < steps; ++k) Add({from + way * k / steps, from + way * (k + 1) / steps}, owner);
+  }
+}
+
+void LabelSpace::AddBox(const Box& box) { Add(CornersOf(box), -1); }
+
+bool LabelSpace::IsFree(const Box& box) const {
+  const std::vector<Point2> corners = CornersOf(box);
+  for (const Point2& p : corners)
+    if (p.minCoeff() < 0 || p.x() > size_.x() || p.y() > size_.y()) return false;
+  return !AnyNear(corners, [&](long long key) {
+    const auto cell = cells_.find(key);
+    return cell != cells_.end() && std::any_of(cell->second.begin(), cell->second.end(),
+                                               [&](int i) { return Overlap(items_[i].corners, corners); });
+  });
+}
+
+bool LabelSpace::IsFree(const Point2& from, const Point2& to, int owner) const {
+  const std::vector<Point2> segment = {from, to};
+  return !AnyNear(segment, [&](long long key) {
+    const auto cell = cells_.find(key);
+    return cell != cells_.end() && std::any_of(cell->second.begin(), cell->second.end(), [&](int i) {
+             return (owner < 0 || items_[i].owner != owner) && Overlap(items_[i].corners, segment);
+           });
+  });
+}
+
+}  // namespace dcharts
