@@ -2,25 +2,31 @@
 #include "pattern/pattern_steps.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "common/parallel.h"
 #include "pattern/build_pieces.h"
-#include "pattern/equal_seams.h"
 #include "pattern/seam_graph.h"
 #include "pattern/simplify_seams.h"
+#include "planar/distortion.h"
 
 namespace dcharts {
 namespace {
 
-std::vector<std::vector<int>> Boundaries(const FlatCharts& charts) {
-  std::vector<std::vector<int>> boundary(charts.charts.size());
-  for (const auto& edge : charts.edges)
-    for (const ChartEdge& side : edge) boundary[side.chart].push_back(side.half_edge);
-  for (auto& edges : boundary) std::sort(edges.begin(), edges.end());
-  return boundary;
+// Fabric is laid flat conformally with seams as long as on the model, which makes curved pieces too small in
+// their middles: enlarged all alike, they have the model's area together.
+void GiveModelArea(FlatCharts& charts) {
+  double model = 0, flat = 0;
+  for (const FlatChart& chart : charts.charts) {
+    const StretchFigures figures = MeasureStretch(chart.mesh, chart.uv);
+    model += figures.SurfaceArea();
+    flat += figures.UvArea();
+  }
+  if (!(flat > 0)) return;
+  const double factor = std::sqrt(model / flat);
+  for (FlatChart& chart : charts.charts) chart.uv *= factor;
 }
 
 }  // namespace
@@ -28,13 +34,8 @@ std::vector<std::vector<int>> Boundaries(const FlatCharts& charts) {
 Pattern PatternOfCharts(FlatCharts charts, const Params& params, Progress& progress, double from, double to) {
   const bool is_paper = params.material == PatternMaterial::kPaper;
   const auto poll = [&] { progress.Poll(); };
-  progress.BeginStage("Making seams equally long...", from, from + 0.4 * (to - from));
-  const auto boundaries = Boundaries(charts);
-  ParallelFor(static_cast<int>(charts.charts.size()), progress, [&](int c, const std::function<void()>& ask) {
-    EqualizeSeams(boundaries[c], ask, charts.charts[c]);
-  });
-
-  progress.BeginStage("Simplifying outlines...", from + 0.4 * (to - from), from + 0.5 * (to - from));
+  if (!is_paper) GiveModelArea(charts);
+  progress.BeginStage("Simplifying outlines...", from, from + 0.2 * (to - from));
   const SeamGraph graph = SeamsOf(charts);
   SimplifyOptions simplify;
   simplify.tolerance = params.simplify_tolerance;

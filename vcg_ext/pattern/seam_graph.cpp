@@ -92,6 +92,8 @@ class SeamChainer {
         next.edge = e;
       else if (next.edge != e)
         return {};
+      for (const ChartEdge& other : next.sides)  // one edge between two sides of this one
+        if (other.chart == side.chart && other.half_edge == h) return {};
       next.sides.push_back({side.chart, h});
     }
     next.backwards = way.backwards;

@@ -36,14 +36,14 @@ bool SegmentsCross(const LineSegment& s, const LineSegment& t) {
          (d4 == 0 && InBox(s.b, t));
 }
 
-bool AnyCross(const std::vector<LineSegment>& segments) {
+std::vector<int> CrossingSegments(const std::vector<LineSegment>& segments) {
   // By their left ends: only those whose boxes meet are compared.
   std::vector<int> order(segments.size());
   for (size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int>(k);
   const auto left = [&](int k) { return std::min(segments[k].a.x(), segments[k].b.x()); };
   const auto right = [&](int k) { return std::max(segments[k].a.x(), segments[k].b.x()); };
   std::sort(order.begin(), order.end(), [&](int i, int j) { return left(i) < left(j); });
-  std::vector<int> open;
+  std::vector<int> open, crossing;
   for (int k : order) {
     const LineSegment& s = segments[k];
     open.erase(std::remove_if(open.begin(), open.end(), [&](int j) { return right(j) < left(k); }),
@@ -53,11 +53,15 @@ bool AnyCross(const std::vector<LineSegment>& segments) {
       if (std::max(s.a.y(), s.b.y()) < std::min(t.a.y(), t.b.y()) ||
           std::max(t.a.y(), t.b.y()) < std::min(s.a.y(), s.b.y()))
         continue;
-      if (SegmentsCross(s, t)) return true;
+      if (!SegmentsCross(s, t)) continue;
+      crossing.push_back(j);
+      crossing.push_back(k);
     }
     open.push_back(k);
   }
-  return false;
+  std::sort(crossing.begin(), crossing.end());
+  crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());
+  return crossing;
 }
 
 double DistanceToSegment(const Point2& p, const Point2& a, const Point2& b) {

@@ -21,8 +21,11 @@ inline double Orient(const Point2& a, const Point2& b, const Point2& c) {
 /// True when two segments have a point in common, other than a common corner.
 bool SegmentsCross(const LineSegment& s, const LineSegment& t);
 
+/// Those that cross another one, sorted.
+std::vector<int> CrossingSegments(const std::vector<LineSegment>& segments);
+
 /// True when any two cross.
-bool AnyCross(const std::vector<LineSegment>& segments);
+inline bool AnyCross(const std::vector<LineSegment>& segments) { return !CrossingSegments(segments).empty(); }
 
 /// Distance of a point to the segment from a to b.
 double DistanceToSegment(const Point2& p, const Point2& a, const Point2& b);

@@ -6,10 +6,12 @@
 #include <utility>
 
 #include "common/parallel.h"
+#include "pattern/equal_seams.h"
 #include "planar/flatten.h"
 #include "planar/overlap.h"
 #include "surface/chart_patch.h"
 #include "surface/parameterize.h"
+#include "surface/split_chart.h"
 
 namespace dcharts {
 namespace {
@@ -19,38 +21,65 @@ void ClearSeam(SeamMask& seams, int h) {
   seams[h / 3] = static_cast<std::uint8_t>(seams[h / 3] & ~(1 << (h % 3)));
 }
 
-// Edges (half-edges of the surface, one per edge) at which the chart's darts can be sewn up from their tips.
-std::vector<std::vector<int>> EdgesToSewUp(const SurfaceGraph<SurfaceMesh>& surface, const ChartPatch& patch,
-                                           const Points2& uv) {
+// A cut that ends inside the chart: local half-edges from its tip on, those that arrive there first.
+struct PatchDart {
+  std::vector<int> arriving, leaving;
+};
+
+std::vector<PatchDart> DartsOf(const SurfaceGraph<SurfaceMesh>& surface, const ChartPatch& patch) {
   std::vector<int> leaving(patch.VertexCount(), -1), arriving(patch.VertexCount(), -1);
   for (int h = 0; h < patch.HalfEdgeCount(); ++h) {
     if (patch.opposite[h] >= 0) continue;
     leaving[patch.Vertex(h)] = h;
     arriving[patch.Vertex(Next(h))] = h;
   }
-  // A gap this narrow, as a share of the length sewn up, is taken up by the fabric.
-  constexpr double kNarrow = 0.08;
-  std::vector<std::vector<int>> darts;
+  std::vector<PatchDart> darts;
   for (int tip = 0; tip < patch.VertexCount(); ++tip) {
-    std::vector<int> edges;
-    double length = 0;
-    size_t good = 0;
+    PatchDart dart;
     for (int left = tip, right = tip;;) {
       const int in = arriving[left], out = leaving[right];
       if (in < 0 || out < 0 || surface.Opposite(patch.SurfaceHalfEdge(in)) != patch.SurfaceHalfEdge(out))
         break;
-      edges.push_back(patch.SurfaceHalfEdge(in));
-      length += patch.Length(in);
+      dart.arriving.push_back(in);
+      dart.leaving.push_back(out);
       left = patch.Vertex(in);
       right = patch.Vertex(Next(out));
-      if ((uv.row(left) - uv.row(right)).norm() > kNarrow * length) break;
-      good = edges.size();
       if (left == right) break;  // the other end of a slit
     }
-    edges.resize(good);
-    if (!edges.empty()) darts.push_back(std::move(edges));
+    if (!dart.arriving.empty()) darts.push_back(std::move(dart));
   }
   return darts;
+}
+
+// How many of the dart's edges lie side by side in the plane, from its tip on.
+size_t EdgesSideBySide(const ChartPatch& patch, const PatchDart& dart, const Points2& uv) {
+  // A gap this narrow, as a share of the length sewn up, is taken up by the fabric.
+  constexpr double kNarrow = 0.08;
+  double length = 0;
+  for (size_t k = 0; k < dart.arriving.size(); ++k) {
+    length += patch.Length(dart.arriving[k]);
+    const Eigen::RowVector2d left = uv.row(patch.Vertex(dart.arriving[k])),
+                             right = uv.row(patch.Vertex(Next(dart.leaving[k])));
+    if ((left - right).norm() > kNarrow * length) return k;
+  }
+  return dart.arriving.size();
+}
+
+std::vector<int> BoundaryEdges(const ChartPatch& patch) {
+  std::vector<int> edges;
+  for (int h = 0; h < patch.HalfEdgeCount(); ++h)
+    if (patch.opposite[h] < 0) edges.push_back(h);
+  return edges;
+}
+
+// Empty when there is no flat map without overlap, or not one of the kind asked for.
+Points2 FlattenAnew(const ChartMesh& mesh, FlattenMethod method, const std::function<void()>& poll) {
+  FlattenOptions options;
+  options.method = method;
+  Flattening flat = Flatten(mesh, options, poll);
+  if (!flat.ok || !flat.note.empty() || !OverlappingPairs(OnGrid(flat.uv, mesh.triangles), 1).empty())
+    return {};
+  return std::move(flat.uv);
 }
 
 }  // namespace
@@ -76,6 +105,10 @@ void ChartsForPattern::Flatten(ChartIds& ids, SeamMask& seams, const KnownFlatte
     if (shortened > 0) progress_.Log(std::to_string(shortened) + " darts were shortened.");
   }
   DropIneffectiveSeams(surface_, seams);
+  const int left = EqualizeAllSeams(ids, seams);
+  if (left > 0)
+    progress_.Log("The seams of " + std::to_string(left) +
+                  " pieces could not be made equally long: see the ease of the seams.");
 }
 
 int ChartsForPattern::ShortenDarts(const ChartIds& ids, SeamMask& seams) {
@@ -92,30 +125,26 @@ int ChartsForPattern::ShortenDarts(const ChartIds& ids, SeamMask& seams) {
     PatchExtractor<SurfaceMesh> extractor(surface_, seams);
     for (const auto& faces : FacesOfCharts(ids)) {
       const ChartPatch patch = extractor.Extract(faces);
-      const auto darts = EdgesToSewUp(surface_, patch, StoredUv(patch));
-      if (darts.empty()) continue;
+      const Points2 uv = StoredUv(patch);
       Trial trial;
       trial.faces = faces;
-      trial.darts = static_cast<int>(darts.size());
-      for (const auto& dart : darts)
-        for (int h : dart)
-          for (int k : {h, surface_.Opposite(h)}) {
-            trial.edges.push_back(k);
-            ClearSeam(sewn, k);
+      for (const PatchDart& dart : DartsOf(surface_, patch)) {
+        const size_t count = EdgesSideBySide(patch, dart, uv);
+        trial.darts += count > 0;
+        for (size_t k = 0; k < count; ++k)
+          for (int h : {dart.arriving[k], dart.leaving[k]}) {
+            trial.edges.push_back(patch.SurfaceHalfEdge(h));
+            ClearSeam(sewn, trial.edges.back());
           }
-      trials.push_back(std::move(trial));
+      }
+      if (trial.darts > 0) trials.push_back(std::move(trial));
     }
   }
   PatchExtractor<SurfaceMesh> extractor(surface_, sewn);
   for (Trial& trial : trials) trial.patch = extractor.Extract(trial.faces);
   ParallelFor(static_cast<int>(trials.size()), progress_, [&](int k, const std::function<void()>& poll) {
     Trial& trial = trials[k];
-    FlattenOptions options;
-    options.method = params_.method;
-    Flattening flat = dcharts::Flatten(trial.patch.mesh, options, poll);
-    if (flat.ok && flat.note.empty() &&
-        OverlappingPairs(OnGrid(flat.uv, trial.patch.mesh.triangles), 1).empty())
-      trial.uv = std::move(flat.uv);
+    trial.uv = FlattenAnew(trial.patch.mesh, params_.method, poll);
   });
   int count = 0;
   for (const Trial& trial : trials) {
@@ -125,6 +154,91 @@ int ChartsForPattern::ShortenDarts(const ChartIds& ids, SeamMask& seams) {
     count += trial.darts;
   }
   return count;
+}
+
+struct ChartsForPattern::Finished {
+  ChartPatch patch{};
+  FlatChart chart{};
+  std::vector<int> boundary{};
+  EqualSeams seams{};
+};
+
+FlatChart ChartsForPattern::ChartOf(const ChartPatch& patch) const {
+  FlatChart chart;
+  chart.mesh.triangles = patch.mesh.triangles;
+  chart.mesh.positions = to_mm_ * patch.mesh.positions;
+  chart.uv = to_mm_ * StoredUv(patch);
+  return chart;
+}
+
+void ChartsForPattern::Finish(Finished& chart, const std::function<void()>& poll) const {
+  chart.boundary = BoundaryEdges(chart.patch);
+  chart.chart = ChartOf(chart.patch);
+  const KeepInside keep =
+      params_.material == PatternMaterial::kFabric ? KeepInside::kAngles : KeepInside::kLengths;
+  chart.seams = EqualizeSeams(chart.boundary, keep, poll, chart.chart);
+}
+
+int ChartsForPattern::EqualizeAllSeams(ChartIds& ids, SeamMask& seams) {
+  constexpr int kRounds = 8;
+  std::vector<char> done(surface_.FaceCount(), 0);
+  int left = 0;
+  for (int round = 0; round <= kRounds; ++round) {
+    std::vector<Finished> charts;
+    {
+      PatchExtractor<SurfaceMesh> extractor(surface_, seams);
+      for (const auto& faces : FacesOfCharts(ids))
+        if (!done[faces.front()]) charts.push_back({extractor.Extract(faces)});
+    }
+    if (charts.empty()) break;
+    ParallelFor(static_cast<int>(charts.size()), progress_,
+                [&](int k, const std::function<void()>& poll) { Finish(charts[k], poll); });
+    int next_id = ChartCount(ids);
+    for (const Finished& chart : charts) {
+      if (!chart.seams.whole && round < kRounds) {
+        if (SewUpCrossingDarts(chart, seams)) continue;
+        FlatChart crossing = chart.chart;
+        crossing.uv = chart.seams.uv;
+        const auto overlaps = OverlappingPairs(OnGrid(crossing.uv, crossing.mesh.triangles), 100'000);
+        if (!overlaps.empty()) {
+          PartChart(chart.patch, SplitAtOverlaps(chart.patch, overlaps), next_id++, ids, seams);
+          continue;
+        }
+      }
+      left += !chart.seams.whole;
+      Store(chart.patch, chart.chart.uv / to_mm_);
+      for (int f : chart.patch.faces) done[f] = 1;
+    }
+    SplitAndCompact(surface_, ids, &seams);
+  }
+  return left;
+}
+
+bool ChartsForPattern::SewUpCrossingDarts(const Finished& chart, SeamMask& seams) {
+  FlatChart crossing = chart.chart;
+  crossing.uv = chart.seams.uv;
+  std::vector<char> crosses(chart.patch.HalfEdgeCount(), 0);
+  for (int h : CrossingEdges(crossing, chart.boundary)) crosses[h] = 1;
+  std::vector<int> sewn;
+  for (const PatchDart& dart : DartsOf(surface_, chart.patch)) {
+    size_t count = 0;
+    for (size_t k = 0; k < dart.arriving.size(); ++k)
+      if (crosses[dart.arriving[k]] || crosses[dart.leaving[k]]) count = k + 1;
+    for (size_t k = 0; k < count; ++k)
+      for (int h : {dart.arriving[k], dart.leaving[k]}) {
+        crosses[h] = 0;
+        sewn.push_back(chart.patch.SurfaceHalfEdge(h));
+      }
+  }
+  if (sewn.empty() || std::find(crosses.begin(), crosses.end(), 1) != crosses.end()) return false;
+  SeamMask trial = seams;
+  for (int h : sewn) ClearSeam(trial, h);
+  const ChartPatch patch = PatchExtractor<SurfaceMesh>(surface_, trial).Extract(chart.patch.faces);
+  const Points2 uv = FlattenAnew(patch.mesh, params_.method, [&] { progress_.Poll(); });
+  if (uv.rows() == 0) return false;
+  seams = std::move(trial);
+  Store(patch, uv);
+  return true;
 }
 
 FlatCharts ChartsForPattern::Take(const ChartIds& ids, const SeamMask& seams, const SurfaceData& data,
@@ -153,7 +267,8 @@ FlatCharts ChartsForPattern::Take(const ChartIds& ids, const SeamMask& seams, co
       if (o >= 0) {
         edge = edge_of[o];
       } else {
-        const auto key = std::minmax(surface_.Vertex(s), surface_.Vertex(Next(s)));
+        const int v = surface_.Vertex(s), w = surface_.Vertex(Next(s));
+        const std::pair<int, int> key(std::min(v, w), std::max(v, w));
         const auto found = border_edge.find(key);
         if (found != border_edge.end()) edge = found->second;
         if (edge < 0) border_edge[key] = static_cast<int>(result.edges.size());

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "common/params.h"
 #include "common/progress.h"
 #include "common/surface_data.h"
 #include "pattern/flat_charts.h"
+#include "surface/chart_patch.h"
 #include "surface/charts.h"
 #include "surface/known_flattenings.h"
 #include "surface/surface_mesh.h"
@@ -29,12 +31,20 @@ class ChartsForPattern {
   /// became shorter; Flatten does so for fabric.
   int ShortenDarts(const ChartIds& ids, SeamMask& seams);
 
+  /// Gives both sides of every seam the same length. A chart whose outline would cross itself then has its
+  /// darts sewn up that cross, or is parted. Returns how many charts were left with seams of unequal length.
+  int EqualizeAllSeams(ChartIds& ids, SeamMask& seams);
+
   /// The flat charts in mm, at their places on the finished object. `data`, `source_face`: the mesh that the
   /// surface was made of, and per face of the surface its own there.
   FlatCharts Take(const ChartIds& ids, const SeamMask& seams, const SurfaceData& data, double data_to_mm,
                   const std::vector<int>& source_face) const;
 
  private:
+  struct Finished;
+  FlatChart ChartOf(const ChartPatch& patch) const;
+  void Finish(Finished& chart, const std::function<void()>& poll) const;
+  bool SewUpCrossingDarts(const Finished& chart, SeamMask& seams);
   Points2 StoredUv(const ChartPatch& patch) const;
   void Store(const ChartPatch& patch, const Points2& uv);
 

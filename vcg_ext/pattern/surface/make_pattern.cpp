@@ -20,7 +20,10 @@ namespace {
 Params ForMaterial(const Params& params) {
   Params material = params;
   if (params.material == PatternMaterial::kFabric) {
+    // Conformal maps change lengths where those of least stretch don't: such charts must be flatter.
+    constexpr double kFlatter = 0.3;
     material.method = FlattenMethod::kConformal;
+    if (params.max_stretch > 0) material.max_stretch = 1 + kFlatter * (params.StretchBound() - 1);
   } else {
     // Paper does not stretch. What little a chart still has is taken up by folding.
     constexpr double kStrict = 1.0002;
