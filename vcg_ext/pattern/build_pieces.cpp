@@ -84,7 +84,6 @@ void FindSides(Pattern& pattern) {
           side.first = k;
         }
         ++side.edges;
-        side.length += (loop[k].at - loop[(k + 1) % loop.size()].at).norm();
       }
     }
 }
@@ -93,8 +92,18 @@ double AngleBetween(const Point2& a, const Point2& b) {
   return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
 }
 
+void MeasureSides(Pattern& pattern) {
+  for (Seam& seam : pattern.seams)
+    for (SeamSide& side : seam.sides) {
+      const Polyline line = SideOf(pattern, side);
+      side.length = 0;
+      for (size_t k = 0; k + 1 < line.size(); ++k) side.length += (line[k + 1] - line[k]).norm();
+    }
+}
+
 // A seam whose sides follow each other in one loop has its tip between them.
 void FindDarts(Pattern& pattern) {
+  for (Piece& piece : pattern.pieces) piece.darts.clear();
   for (Seam& seam : pattern.seams) {
     if (seam.sides.size() != 2 || seam.sides[0].piece != seam.sides[1].piece ||
         seam.sides[0].loop != seam.sides[1].loop || seam.closed)
@@ -139,13 +148,23 @@ Pattern BuildPieces(const FlatCharts& charts, const SeamGraph& graph, const Kept
     piece.name = "Piece " + std::to_string(c + 1);
     piece.group = piece.id;
     piece.loops = LoopsOfChart(chart, graph.places[c], graph, kept);
-    for (const OutlineLoop& loop : piece.loops) piece.area += SignedArea(PolylineOf(loop));
     piece.model_area = ModelArea(chart.mesh);
     piece.flat = FlatMeshOf(chart);
     pattern.pieces.push_back(std::move(piece));
   }
   FindSides(pattern);
+  MeasurePieces(pattern);
+  return pattern;
+}
+
+void MeasurePieces(Pattern& pattern) {
+  for (Piece& piece : pattern.pieces) {
+    piece.area = 0;
+    for (const OutlineLoop& loop : piece.loops) piece.area += SignedArea(PolylineOf(loop));
+  }
+  MeasureSides(pattern);
   FindDarts(pattern);
+  pattern.largest_ease = pattern.total_seam_length = 0;
   for (Seam& seam : pattern.seams) {
     const auto [shortest, longest] =
         std::minmax_element(seam.sides.begin(), seam.sides.end(),
@@ -154,7 +173,6 @@ Pattern BuildPieces(const FlatCharts& charts, const SeamGraph& graph, const Kept
     pattern.largest_ease = std::max(pattern.largest_ease, seam.ease);
     if (!seam.IsBorder()) pattern.total_seam_length += seam.length;
   }
-  return pattern;
 }
 
 }  // namespace dcharts

@@ -12,4 +12,7 @@ namespace dcharts {
 /// ease. The pieces are in the order of the charts, the seams in that of the graph.
 Pattern BuildPieces(const FlatCharts& charts, const SeamGraph& graph, const KeptVertices& kept);
 
+/// Sets the lengths of seams' sides, eases, net areas and darts from the outlines.
+void MeasurePieces(Pattern& pattern);
+
 }  // namespace dcharts

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "pattern/build_pieces.h"
+#include "pattern/equal_outlines.h"
 #include "pattern/seam_graph.h"
 #include "pattern/simplify_seams.h"
 #include "planar/distortion.h"
@@ -29,19 +31,32 @@ void GiveModelArea(FlatCharts& charts) {
   for (FlatChart& chart : charts.charts) chart.uv *= factor;
 }
 
+// The two sides of an edge that takes the place of several may differ a little; moving the corners makes up
+// for that. Where it can't within the tolerance, they must differ less from the start.
+Pattern SimplifiedPieces(const FlatCharts& charts, const SeamGraph& graph, const Params& params,
+                         const std::function<void()>& poll) {
+  const double promised = params.material == PatternMaterial::kPaper ? 0.0008 : 0.008;
+  constexpr double kForCollapse = 0.7;  // of the tolerance; the rest is for moving corners
+  SimplifyOptions options;
+  options.tolerance = kForCollapse * params.simplify_tolerance;
+  Pattern pattern;
+  for (const double most_ease : {0.1, 0.03, 0.01, 0.003, 0.0005}) {
+    options.most_ease = most_ease;
+    pattern = BuildPieces(charts, graph, SimplifySeams(charts, graph, options, poll));
+    EqualizeOutlines((1 - kForCollapse) * params.simplify_tolerance, pattern);
+    if (pattern.largest_ease <= promised) break;
+  }
+  return pattern;
+}
+
 }  // namespace
 
 Pattern PatternOfCharts(FlatCharts charts, const Params& params, Progress& progress, double from, double to) {
-  const bool is_paper = params.material == PatternMaterial::kPaper;
   const auto poll = [&] { progress.Poll(); };
-  if (!is_paper) GiveModelArea(charts);
+  if (params.material == PatternMaterial::kFabric) GiveModelArea(charts);
   progress.BeginStage("Simplifying outlines...", from, from + 0.2 * (to - from));
   const SeamGraph graph = SeamsOf(charts);
-  SimplifyOptions simplify;
-  simplify.tolerance = params.simplify_tolerance;
-  // Within what is promised of finished seams, 1 % and 0.1 %.
-  simplify.most_ease = is_paper ? 0.0005 : 0.005;
-  Pattern pattern = BuildPieces(charts, graph, SimplifySeams(charts, graph, simplify, poll));
+  Pattern pattern = SimplifiedPieces(charts, graph, params, poll);
   pattern.material = params.material;
   return pattern;
 }
