@@ -8,8 +8,15 @@
 #include <utility>
 #include <vector>
 
+#include "pattern/allowance.h"
 #include "pattern/build_pieces.h"
 #include "pattern/equal_outlines.h"
+#include "pattern/grain.h"
+#include "pattern/label_place.h"
+#include "pattern/match_points.h"
+#include "pattern/net_triangles.h"
+#include "pattern/outline.h"
+#include "pattern/place_pieces.h"
 #include "pattern/seam_graph.h"
 #include "pattern/simplify_seams.h"
 #include "planar/distortion.h"
@@ -58,6 +65,29 @@ Pattern PatternOfCharts(FlatCharts charts, const Params& params, Progress& progr
   const SeamGraph graph = SeamsOf(charts);
   Pattern pattern = SimplifiedPieces(charts, graph, params, poll);
   pattern.material = params.material;
+  for (Piece& piece : pattern.pieces) {
+    const std::vector<Polyline> outline = OutlineOf(piece);
+    for (const Polyline& loop : outline)
+      piece.net.vertices.insert(piece.net.vertices.end(), loop.begin(), loop.end());
+    piece.net.triangles = NetTriangles(outline);
+    const Circle label = LargestCircle(outline);
+    piece.label_at = label.middle;
+    piece.label_radius = label.radius;
+    poll();
+  }
+  AddMatchPoints(pattern);
+  SetSewingOrder(pattern);
+  if (params.material == PatternMaterial::kFabric) {
+    SetGrain(charts, pattern);
+    AddAllowances(params.seam_allowance, pattern);
+  } else {
+    for (Piece& piece : pattern.pieces) piece.cut = OutlineOf(piece);
+  }
+
+  progress.BeginStage("Placing pieces...", from + 0.4 * (to - from), to);
+  constexpr double kGap = 4;  // mm between pieces: room for scissors
+  PlacePieces(params.page, params.rotate, kGap, poll, pattern);
+  for (const std::string& warning : pattern.warnings) progress.Log(warning);
   return pattern;
 }
 

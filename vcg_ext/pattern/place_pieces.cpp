@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pattern/place_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "common/pi.h"
+#include "pattern/segments.h"
+#include "planar/packing.h"
+#include "planar/packing_board.h"
+#include "planar/upright_box.h"
+
+namespace dcharts {
+namespace {
+
+// The edges of the outer cut line: end points, two rows per edge.
+Points2 EdgesOf(const Polyline& loop) {
+  Points2 edges(2 * static_cast<Eigen::Index>(loop.size()), 2);
+  for (size_t k = 0; k < loop.size(); ++k) {
+    edges.row(2 * static_cast<Eigen::Index>(k)) = loop[k].transpose();
+    edges.row(2 * static_cast<Eigen::Index>(k) + 1) = loop[(k + 1) % loop.size()].transpose();
+  }
+  return edges;
+}
+
+Points2 Turned(const Points2& points, double angle) {
+  Eigen::Matrix2d r;
+  r << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  return points * r.transpose();
+}
+
+void PlaceOnSheet(const std::vector<Piece*>& pieces, bool rotate, double gap,
+                  const std::function<void()>& poll, Pattern& pattern) {
+  std::vector<Points2> outlines;
+  double area = 0;
+  for (const Piece* piece : pieces) {
+    outlines.push_back(EdgesOf(piece->cut.front()));
+    area += SignedArea(piece->cut.front());
+  }
+  // The gap as a share of a side that is not known yet: of one that is surely smaller.
+  PackOptions options;
+  options.rotate = rotate;
+  options.texture_size = 4096;
+  options.padding = static_cast<int>(std::ceil(gap / std::sqrt(area) * options.texture_size));
+  options.padding = std::min(options.padding, options.texture_size / 16);
+  const Packing packing = Pack(outlines, options, poll);
+  const double side = 1 / packing.scale;
+  Point2 low = Point2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (size_t k = 0; k < pieces.size(); ++k) {
+    PiecePlacement& place = pieces[k]->on_sheet;
+    place.page = 0;
+    place.angle = packing.placements[k].angle;
+    place.offset = side * packing.placements[k].offset;
+    for (const Point2& p : pieces[k]->cut.front()) {
+      low = low.cwiseMin(place(p));
+      high = high.cwiseMax(place(p));
+    }
+  }
+  const Point2 margin = Point2::Constant(kPageMargin);
+  for (Piece* piece : pieces) piece->on_sheet.offset += margin - low;
+  pattern.sheet_size = high - low + 2 * margin;
+}
+
+/// Puts pieces onto pages one after the other, the largest first, each on the first page with a place.
+class Pager {
+ public:
+  Pager(const Point2& printable, double gap, bool rotate) : gap_(gap), rotate_(rotate) {
+    constexpr double kMostCells = 400;  // along the page
+    cell_ = std::max(1.0, printable.maxCoeff() / kMostCells);
+    // A piece keeps half a gap to the margin as well; that much it may reach over it.
+    columns_ = static_cast<int>((printable.x() + gap) / cell_);
+    rows_ = static_cast<int>((printable.y() + gap) / cell_);
+  }
+
+  // False when the piece is larger than the page.
+  bool Place(Piece& piece) {
+    const Points2 edges = EdgesOf(piece.cut.front());
+    const double upright = rotate_ ? UprightAngle(edges) : 0;
+    bool fits = false;
+    for (size_t page = 0; page <= boards_.size(); ++page) {
+      if (page == boards_.size()) boards_.emplace_back(std::max(columns_, rows_) + 1);
+      int lowest = std::numeric_limits<int>::max();
+      RowRuns best;
+      int best_x = 0, best_y = 0;
+      const int turns = rotate_ ? 16 : 1;
+      for (int t = 0; t < turns; ++t) {
+        const double angle = upright + 2 * kPi * t / turns;
+        Points2 turned = Turned(edges, angle);
+        const Eigen::RowVector2d corner = turned.colwise().minCoeff();
+        turned.rowwise() -= corner;
+        const RowRuns cells = CoveredCells(turned / cell_, gap_ / 2 / cell_);
+        if (cells.width > columns_ || cells.Height() > rows_) continue;
+        fits = true;
+        int x = 0, y = 0;
+        if (!boards_[page].FindLowest(cells, columns_, 0, rows_ + 1, &x, &y)) continue;
+        if (y + cells.Height() >= lowest) continue;
+        lowest = y + cells.Height();
+        best = cells;
+        best_x = x;
+        best_y = y;
+        // The margin is there twice: the grid begins half a gap outside the printable part.
+        piece.on_page.angle = angle;
+        piece.on_page.offset =
+            Point2(x * cell_, y * cell_) - corner.transpose() + Point2::Constant(kPageMargin);
+      }
+      if (lowest == std::numeric_limits<int>::max()) {
+        if (!fits) break;
+        continue;
+      }
+      boards_[page].Take(best, best_x, best_y);
+      piece.on_page.page = static_cast<int>(page);
+      pages_ = std::max(pages_, static_cast<int>(page) + 1);
+      return true;
+    }
+    piece.on_page.page = -1;
+    piece.on_page.angle = upright;
+    return false;
+  }
+
+  int PageCount() const { return pages_; }
+
+ private:
+  double gap_;
+  bool rotate_;
+  double cell_ = 1;
+  int columns_ = 0, rows_ = 0, pages_ = 0;
+  std::vector<Board> boards_;
+};
+
+void PlaceOnPages(const std::vector<Piece*>& pieces, PageFormat page, bool rotate, double gap,
+                  const std::function<void()>& poll, Pattern& pattern) {
+  pattern.page_size = PageSize(page);
+  pattern.page_margin = kPageMargin;
+  std::vector<Piece*> order = pieces;
+  std::stable_sort(order.begin(), order.end(), [](const Piece* a, const Piece* b) {
+    return SignedArea(a->cut.front()) > SignedArea(b->cut.front());
+  });
+  Pager pager(PrintableSize(page), gap, rotate);
+  for (Piece* piece : order) {
+    if (poll) poll();
+    if (pager.Place(*piece)) continue;
+    Point2 low = Point2::Constant(std::numeric_limits<double>::infinity());
+    piece->on_page.offset = {0, 0};
+    for (const Point2& p : piece->cut.front()) low = low.cwiseMin(piece->on_page(p));
+    piece->on_page.offset = Point2::Constant(kPageMargin) - low;
+  }
+  pattern.page_count = pager.PageCount();
+}
+
+}  // namespace
+
+Point2 PageSize(PageFormat page) {
+  switch (page) {
+    case PageFormat::kSingleSheet:
+      return {0, 0};
+    case PageFormat::kA4:
+      return {210, 297};
+    case PageFormat::kA3:
+      return {297, 420};
+    case PageFormat::kA0:
+      return {841, 1189};
+    case PageFormat::kLetter:
+      return {215.9, 279.4};
+  }
+  return {0, 0};
+}
+
+Point2 PrintableSize(PageFormat page) {
+  if (page == PageFormat::kSingleSheet) return Point2::Constant(std::numeric_limits<double>::infinity());
+  return PageSize(page) - Point2::Constant(2 * kPageMargin);
+}
+
+bool FitsInto(const Polyline& points, const Point2& size) {
+  constexpr int kTurns = 36;
+  for (int t = 0; t < kTurns; ++t) {
+    const double angle = kPi * t / kTurns, c = std::cos(angle), s = std::sin(angle);
+    Point2 low = Point2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const Point2& p : points) {
+      const Point2 q(c * p.x() - s * p.y(), s * p.x() + c * p.y());
+      low = low.cwiseMin(q);
+      high = high.cwiseMax(q);
+    }
+    if (((high - low).array() <= size.array()).all()) return true;
+  }
+  return false;
+}
+
+void PlacePieces(PageFormat page, bool rotate, double gap, const std::function<void()>& poll,
+                 Pattern& pattern) {
+  std::vector<Piece*> pieces;
+  for (Piece& piece : pattern.pieces)
+    if (piece.drawn && !piece.cut.empty()) pieces.push_back(&piece);
+  if (pieces.empty()) return;
+  PlaceOnSheet(pieces, rotate, gap, poll, pattern);
+  if (page != PageFormat::kSingleSheet) PlaceOnPages(pieces, page, rotate, gap, poll, pattern);
+}
+
+}  // namespace dcharts

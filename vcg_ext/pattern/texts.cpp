@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pattern/texts.h"
+
+#include <cmath>
+
+namespace dcharts {
+
+std::string LengthText(double millimetres) {
+  const long long tenths = std::llround(millimetres * 10);
+  std::string text = std::to_string(tenths / 10);
+  if (tenths % 10 != 0) text += "." + std::to_string(std::abs(tenths % 10));
+  return text + " mm";
+}
+
+std::string PieceList(const std::vector<int>& pieces) {
+  std::string text = pieces.size() == 1 ? "piece " : "pieces ";
+  for (size_t k = 0; k < pieces.size(); ++k) {
+    if (k > 0) text += k + 1 == pieces.size() ? " and " : ", ";
+    text += std::to_string(pieces[k] + 1);
+  }
+  return text;
+}
+
+}  // namespace dcharts
