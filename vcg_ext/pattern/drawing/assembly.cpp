@@ -168,21 +168,20 @@ std::vector<std::string> Facts(const Pattern& pattern) {
 
 }  // namespace
 
-std::vector<Drawing> AssemblyPages(const Pattern& pattern, const SurfaceData& mesh, const std::string& title,
-                                   const Point2& page_size, double margin,
-                                   const std::vector<std::string>& notes) {
+std::vector<Drawing> AssemblyPages(const Draft& draft, const Point2& page_size, double margin) {
+  const Pattern& pattern = draft.pattern;
   const double width = page_size.x() - 2 * margin;
   std::vector<Drawing> pages(1);
   Drawing& first = pages[0];
-  first.title = title;
+  first.title = draft.title;
   first.size = page_size;
   first.groups.push_back({"assembly", "Assembly"});
   Group& group = first.groups[0];
 
   double y = page_size.y() - margin - 6;
-  AddText(group, {margin, y}, title, SizeToFit(title, 6, width));
+  AddText(group, {margin, y}, draft.title, SizeToFit(draft.title, 6, width));
   std::vector<std::string> sentences = Facts(pattern);
-  sentences.insert(sentences.end(), notes.begin(), notes.end());
+  sentences.insert(sentences.end(), pattern.warnings.begin(), pattern.warnings.end());
   y -= 3;
   for (const std::string& sentence : sentences) {
     y -= 4.2;
@@ -194,7 +193,7 @@ std::vector<Drawing> AssemblyPages(const Pattern& pattern, const SurfaceData& me
   AddLegend(group, {margin, y}, pattern.material);
   y -= kGap;
 
-  Views views = ChooseViews(pattern, mesh);
+  Views views = ChooseViews(pattern, draft.mesh);
   const double side = std::min((width - kGap) / 2, 0.3 * page_size.y());
   for (std::size_t v = 0; v < views.views.size(); ++v) {
     if (v % 2 == 0) y -= side + (v > 0 ? kGap : 0);

@@ -4,16 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "common/surface_data.h"
+#include "pattern/drawing/draft.h"
 #include "pattern/drawing/drawing.h"
 
 namespace dcharts {
 
 /// How to put the pieces together: pictures of the model with numbered pieces, totals, and a table of the
 /// seams in the order of sewing. As many pages of this size as it takes; `margin` stays free on each side.
-/// `notes`: sentences for the first page.
-std::vector<Drawing> AssemblyPages(const Pattern& pattern, const SurfaceData& mesh, const std::string& title,
-                                   const Point2& page_size, double margin,
-                                   const std::vector<std::string>& notes);
+/// The pattern's warnings are on the first page.
+std::vector<Drawing> AssemblyPages(const Draft& draft, const Point2& page_size, double margin);
 
 }  // namespace dcharts

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
+
 #include "common/pi.h"
+#include "pattern/drawing/flat_layer.h"
 
 namespace dcharts {
 
@@ -22,18 +25,6 @@ struct Raster {
   std::vector<int> piece;
   std::vector<float> light;
 };
-
-std::array<double, 3> PieceColor(int piece) {
-  constexpr double kGoldenAngle = 0.6180339887498949;
-  const double hue = 6 * std::fmod(0.08 + piece * kGoldenAngle, 1.0);
-  const double saturation = piece % 2 == 0 ? 0.5 : 0.3;
-  std::array<double, 3> rgb;
-  for (int c = 0; c < 3; ++c) {
-    const double k = std::fmod(5.0 - 2 * c + hue, 6.0);
-    rgb[c] = 1 - saturation * std::clamp(std::min(k, 4 - k), 0.0, 1.0);
-  }
-  return rgb;
-}
 
 void DrawTriangle(const std::array<Eigen::Vector3d, 3>& p, int piece, float light, Raster& raster) {
   const double area =
@@ -130,8 +121,8 @@ Picture ShrunkPicture(const Raster& raster, int pixels) {
           if (IsBorder(raster, u, v)) {
             color = {0.15, 0.15, 0.15};
           } else if (piece >= 0) {
-            color = PieceColor(piece);
-            for (double& c : color) c *= raster.light[i];
+            const auto rgb = PieceColor(piece);
+            for (int c = 0; c < 3; ++c) color[c] = rgb[c] / 255.0 * raster.light[i];
           }
           for (int c = 0; c < 3; ++c) sum[c] += color[c];
         }

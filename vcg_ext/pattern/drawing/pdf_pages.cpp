@@ -28,8 +28,7 @@ Page PageOf(Drawing drawing) {
 
 class PageMaker {
  public:
-  PageMaker(const Pattern& pattern, const std::string& title, std::vector<std::string>& unplaced)
-      : pattern_(pattern), title_(title), unplaced_(unplaced), tilings_(TilingsOf(pattern, unplaced)) {}
+  explicit PageMaker(Draft& draft) : draft_(draft), pattern_(draft.pattern), tilings_(TilingsOf(draft)) {}
 
   std::vector<Page> Make(const std::vector<Drawing>& assembly) {
     for (const Drawing& drawing : assembly) pages_.push_back(PageOf(drawing));
@@ -55,7 +54,7 @@ class PageMaker {
 
   void AddMaps(int page_number) {
     for (std::size_t i = 0; i < tilings_.size();) {
-      Drawing drawing{title_, pattern_.page_size, {{"map", "Page map"}}};
+      Drawing drawing{draft_.title, pattern_.page_size, {{"map", "Page map"}}};
       Group& group = drawing.groups[0];
       const double top = pattern_.page_size.y() - pattern_.page_margin;
       AddText(group, {pattern_.page_margin, top - 6},
@@ -92,15 +91,15 @@ class PageMaker {
       pieces.push_back(&piece);
       placements.push_back(piece.on_page);
     }
-    Drawing drawing{title_, pattern_.page_size, {}};
-    drawing.groups = PieceGroups(pattern_, pieces, placements, pattern_.page_size, unplaced_);
-    drawing.groups.push_back(Footer(title_));
+    Drawing drawing{draft_.title, pattern_.page_size, {}};
+    drawing.groups = PieceGroups(draft_, pieces, placements, pattern_.page_size);
+    drawing.groups.push_back(Footer(draft_.title));
     pages_.push_back(PageOf(std::move(drawing)));
   }
 
   void AddTile(const Tiling& tiling, int index) {
     const double margin = pattern_.page_margin;
-    Drawing marks{title_, pattern_.page_size, {Footer(tiling.NameOf(index))}};
+    Drawing marks{draft_.title, pattern_.page_size, {Footer(tiling.NameOf(index))}};
     const Point2 low(margin, margin), high = low + tiling.tile;
     marks.groups[0].lines.push_back(
         {Mark::kSheet, {low, {high.x(), low.y()}, high, {low.x(), high.y()}}, true});
@@ -109,9 +108,8 @@ class PageMaker {
          {ViewOfTile(tiling, index, margin), {Shared(std::move(marks)), {0, 0}, {0, 0}, {0, 0}}}});
   }
 
+  Draft& draft_;
   const Pattern& pattern_;
-  std::string title_;
-  std::vector<std::string>& unplaced_;
   std::vector<Tiling> tilings_;
   std::vector<Page> pages_;
   int count_ = 0;
@@ -119,16 +117,15 @@ class PageMaker {
 
 }  // namespace
 
-std::vector<Page> PdfPages(const Pattern& pattern, const SurfaceData& mesh, const std::string& title,
-                           std::vector<std::string>& unplaced) {
+std::vector<Page> PdfPages(Draft& draft) {
+  const Pattern& pattern = draft.pattern;
   const bool single = pattern.page_size.minCoeff() <= 0;
   const std::vector<Drawing> assembly =
-      AssemblyPages(pattern, mesh, title, single ? kA4 : pattern.page_size,
-                    single ? kA4Margin : pattern.page_margin, pattern.warnings);
-  if (!single) return PageMaker(pattern, title, unplaced).Make(assembly);
+      AssemblyPages(draft, single ? kA4 : pattern.page_size, single ? kA4Margin : pattern.page_margin);
+  if (!single) return PageMaker(draft).Make(assembly);
   std::vector<Page> pages;
   for (const Drawing& drawing : assembly) pages.push_back(PageOf(drawing));
-  pages.push_back(PageOf(SheetOf(pattern, title, unplaced)));
+  pages.push_back(PageOf(SheetOf(draft)));
   return pages;
 }
 

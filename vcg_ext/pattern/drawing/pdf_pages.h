@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/surface_data.h"
+#include "pattern/drawing/draft.h"
 #include "pattern/drawing/pdf_writer.h"
 
 namespace dcharts {
@@ -12,7 +12,6 @@ namespace dcharts {
 /// All pages of a pattern's PDF: assembly, page map, pages with whole pieces (or the single sheet), tiles of
 /// larger pieces. Every page with pieces has a scale bar. Appends the labels that found no room to
 /// `unplaced`.
-std::vector<Page> PdfPages(const Pattern& pattern, const SurfaceData& mesh, const std::string& title,
-                           std::vector<std::string>& unplaced);
+std::vector<Page> PdfPages(Draft& draft);
 
 }  // namespace dcharts

@@ -6,14 +6,15 @@
 #include "pattern/drawing/label_space.h"
 #include "pattern/drawing/piece_labels.h"
 #include "pattern/drawing/piece_lines.h"
+#include "pattern/drawing/piece_texture.h"
 #include "pattern/drawing/placed_piece.h"
 #include "pattern/drawing/sheet_marks.h"
 
 namespace dcharts {
 
-std::vector<Group> PieceGroups(const Pattern& pattern, const std::vector<const Piece*>& pieces,
-                               const std::vector<PiecePlacement>& placements, const Point2& sheet_size,
-                               std::vector<std::string>& unplaced) {
+std::vector<Group> PieceGroups(Draft& draft, const std::vector<const Piece*>& pieces,
+                               const std::vector<PiecePlacement>& placements, const Point2& sheet_size) {
+  const Pattern& pattern = draft.pattern;
   std::vector<PlacedPiece> placed;
   std::vector<Group> groups;
   LabelSpace space(sheet_size);
@@ -21,6 +22,10 @@ std::vector<Group> PieceGroups(const Pattern& pattern, const std::vector<const P
     placed.push_back(Place(pattern, *pieces[i], placements[i]));
     const std::string number = std::to_string(pieces[i]->id + 1);
     Group group{"piece-" + number, pieces[i]->name, true};
+    if (draft.print_texture) {
+      Picture texture = PieceTexture(draft.mesh, placed.back());
+      if (texture.width > 0) group.pictures.push_back(std::move(texture));
+    }
     group.lines = PieceLines(pattern, placed.back());
     for (const Line& line : group.lines)
       if (line.mark != Mark::kRuling) space.AddLine(line.points, line.closed, pieces[i]->id);
@@ -28,11 +33,12 @@ std::vector<Group> PieceGroups(const Pattern& pattern, const std::vector<const P
   }
   for (std::size_t i = 0; i < placed.size(); ++i)
     for (const std::string& label : AddPieceLabels(pattern, placed[i], placed, space, groups[i]))
-      unplaced.push_back(pieces[i]->name + ": " + label);
+      draft.unplaced.push_back(pieces[i]->name + ": " + label);
   return groups;
 }
 
-Drawing SheetOf(const Pattern& pattern, const std::string& title, std::vector<std::string>& unplaced) {
+Drawing SheetOf(Draft& draft) {
+  const Pattern& pattern = draft.pattern;
   constexpr double kStrip = 24, kLeft = 8, kNarrowest = 150;  // mm
   std::vector<const Piece*> pieces;
   std::vector<PiecePlacement> placements;
@@ -42,13 +48,12 @@ Drawing SheetOf(const Pattern& pattern, const std::string& title, std::vector<st
     placements.push_back(piece.on_sheet);
   }
   Drawing drawing;
-  drawing.title = title;
+  drawing.title = draft.title;
   drawing.size = {std::max(pattern.sheet_size.x(), kNarrowest), pattern.sheet_size.y() + kStrip};
-  drawing.groups =
-      PieceGroups(pattern, pieces, placements, {drawing.size.x(), pattern.sheet_size.y()}, unplaced);
+  drawing.groups = PieceGroups(draft, pieces, placements, {drawing.size.x(), pattern.sheet_size.y()});
   Group marks{"sheet", "Sheet"};
   const double bottom = pattern.sheet_size.y();
-  AddText(marks, {kLeft, bottom + 17}, title, 4.5);
+  AddText(marks, {kLeft, bottom + 17}, draft.title, 4.5);
   AddScaleBar(marks, {kLeft, bottom + 8}, 100);
   AddLegend(marks, {kLeft, bottom + 2}, pattern.material);
   drawing.groups.push_back(std::move(marks));

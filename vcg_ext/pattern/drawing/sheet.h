@@ -4,18 +4,18 @@
 #include <string>
 #include <vector>
 
+#include "pattern/drawing/draft.h"
 #include "pattern/drawing/drawing.h"
 
 namespace dcharts {
 
 /// Draws pieces with all their notation: one group for each. `placements`: where they lie on a sheet of this
-/// size. Appends the labels that found no room to `unplaced`.
-std::vector<Group> PieceGroups(const Pattern& pattern, const std::vector<const Piece*>& pieces,
-                               const std::vector<PiecePlacement>& placements, const Point2& sheet_size,
-                               std::vector<std::string>& unplaced);
+/// size.
+std::vector<Group> PieceGroups(Draft& draft, const std::vector<const Piece*>& pieces,
+                               const std::vector<PiecePlacement>& placements, const Point2& sheet_size);
 
 /// All drawn pieces on one sheet, with a strip above them that has title, scale bar and legend. The pieces
 /// have the coordinates of Piece::on_sheet.
-Drawing SheetOf(const Pattern& pattern, const std::string& title, std::vector<std::string>& unplaced);
+Drawing SheetOf(Draft& draft);
 
 }  // namespace dcharts

@@ -53,7 +53,8 @@ std::string Tiling::NameOf(int index) const {
          ", column " + std::to_string(index % columns + 1) + " of " + std::to_string(columns);
 }
 
-std::vector<Tiling> TilingsOf(const Pattern& pattern, std::vector<std::string>& unplaced) {
+std::vector<Tiling> TilingsOf(Draft& draft) {
+  const Pattern& pattern = draft.pattern;
   std::vector<Tiling> tilings;
   for (const Piece& piece : pattern.pieces) {
     if (!piece.drawn || piece.on_page.page >= 0) continue;
@@ -68,7 +69,7 @@ std::vector<Tiling> TilingsOf(const Pattern& pattern, std::vector<std::string>& 
     drawing->size = turned.high - turned.low + Point2(2, 2) * kAround;
     tiling.columns = TilesAlong(drawing->size.x(), tiling.tile.x());
     tiling.rows = TilesAlong(drawing->size.y(), tiling.tile.y());
-    drawing->groups = PieceGroups(pattern, {&piece}, {placement}, drawing->size, unplaced);
+    drawing->groups = PieceGroups(draft, {&piece}, {placement}, drawing->size);
     drawing->groups.push_back(Registrations(tiling));
     tiling.outline = Place(pattern, piece, placement).cut.at(0);
     tiling.drawing = drawing;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pattern/drawing/draft.h"
 #include "pattern/drawing/drawing.h"
 #include "pattern/drawing/pdf_writer.h"
 
@@ -28,7 +29,7 @@ struct Tiling {
 
 /// Tilings of the drawn pieces whose placement is on no page. Appends labels that found no room to
 /// `unplaced`.
-std::vector<Tiling> TilingsOf(const Pattern& pattern, std::vector<std::string>& unplaced);
+std::vector<Tiling> TilingsOf(Draft& draft);
 
 /// The tile on a page of its own, without the page's marks.
 PageView ViewOfTile(const Tiling& tiling, int index, double margin);

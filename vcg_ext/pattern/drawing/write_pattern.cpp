@@ -25,12 +25,11 @@ std::string EndingOf(const std::string& path) {
 }
 
 // Pieces, and to the right of them how to put them together.
-Drawing WholeSheet(const Pattern& pattern, const SurfaceData& mesh, const std::string& title,
-                   std::vector<std::string>& unplaced) {
+Drawing WholeSheet(Draft& draft) {
   const Point2 page(210, 297);
   constexpr double kMargin = 10;
-  Drawing sheet = SheetOf(pattern, title, unplaced);
-  for (const Drawing& drawing : AssemblyPages(pattern, mesh, title, page, kMargin, pattern.warnings)) {
+  Drawing sheet = SheetOf(draft);
+  for (const Drawing& drawing : AssemblyPages(draft, page, kMargin)) {
     for (const Group& group : drawing.groups) sheet.groups.push_back(Moved(group, {sheet.size.x(), 0}));
     sheet.size = {sheet.size.x() + page.x(), std::max(sheet.size.y(), page.y())};
   }
@@ -40,26 +39,31 @@ Drawing WholeSheet(const Pattern& pattern, const SurfaceData& mesh, const std::s
 }  // namespace
 
 void CheckOutputFile(const std::string& path) {
+  namespace fs = std::filesystem;
   const std::string ending = EndingOf(path);
-  if (ending == ".svg" || ending == ".pdf" || ending == ".dxf") return;
-  throw Error("output_file must end in .svg, .pdf or .dxf; you gave '" + path + "'.");
+  if (ending != ".svg" && ending != ".pdf" && ending != ".dxf")
+    throw Error("output_file must end in .svg, .pdf or .dxf; you gave '" + path + "'.");
+  const fs::path folder = fs::u8path(path).parent_path();
+  std::error_code error;
+  if (!folder.empty() && !fs::is_directory(folder, error))
+    throw Error("output_file is in a folder that does not exist: '" + folder.u8string() + "'.");
 }
 
-std::vector<std::string> WritePattern(const Pattern& pattern, const SurfaceData& mesh,
-                                      const std::string& path) {
+std::vector<std::string> WritePattern(const Pattern& pattern, const SurfaceData& mesh, const Params& params) {
+  const std::string& path = params.output_file;
   CheckOutputFile(path);
-  const std::string ending = EndingOf(path), title = std::filesystem::u8path(path).stem().u8string();
-  std::vector<std::string> unplaced, sentences;
+  const std::string ending = EndingOf(path);
+  Draft draft{pattern, mesh, std::filesystem::u8path(path).stem().u8string(), params.print_texture};
   if (ending == ".pdf")
-    SaveFile(path, PdfFile(title, PdfPages(pattern, mesh, title, unplaced)));
+    SaveFile(path, PdfFile(draft.title, PdfPages(draft)));
   else if (ending == ".svg")
-    SaveFile(path, SvgFile(WholeSheet(pattern, mesh, title, unplaced)));
+    SaveFile(path, SvgFile(WholeSheet(draft)));
   else
-    SaveFile(path, DxfFile(SheetOf(pattern, title, unplaced)));
-  sentences.push_back("Wrote " + path + ".");
-  if (!unplaced.empty()) {
+    SaveFile(path, DxfFile(SheetOf(draft)));
+  std::vector<std::string> sentences = {"Wrote " + path + "."};
+  if (!draft.unplaced.empty()) {
     std::string text = "These labels found no room: ";
-    for (std::size_t i = 0; i < unplaced.size(); ++i) text += (i > 0 ? "; " : "") + unplaced[i];
+    for (std::size_t i = 0; i < draft.unplaced.size(); ++i) text += (i > 0 ? "; " : "") + draft.unplaced[i];
     sentences.push_back(text + ".");
   }
   return sentences;

@@ -15,7 +15,6 @@ void CheckOutputFile(const std::string& path);
 /// Draws the pattern and writes it to the file, in the format of its ending; a relative path is relative to
 /// the working directory. `mesh` is what the pattern was made of. Returns sentences for the log: what was
 /// written, and what found no room. Throws Error; then there is no file, or the one that was there before.
-std::vector<std::string> WritePattern(const Pattern& pattern, const SurfaceData& mesh,
-                                      const std::string& path);
+std::vector<std::string> WritePattern(const Pattern& pattern, const SurfaceData& mesh, const Params& params);
 
 }  // namespace dcharts
