@@ -11,6 +11,7 @@
 #include "pattern/allowance.h"
 #include "pattern/build_pieces.h"
 #include "pattern/equal_outlines.h"
+#include "pattern/folds.h"
 #include "pattern/grain.h"
 #include "pattern/label_place.h"
 #include "pattern/match_points.h"
@@ -19,6 +20,7 @@
 #include "pattern/place_pieces.h"
 #include "pattern/seam_graph.h"
 #include "pattern/simplify_seams.h"
+#include "pattern/tabs.h"
 #include "planar/distortion.h"
 
 namespace dcharts {
@@ -81,7 +83,13 @@ Pattern PatternOfCharts(FlatCharts charts, const Params& params, Progress& progr
     SetGrain(charts, pattern);
     AddAllowances(params.seam_allowance, pattern);
   } else {
-    for (Piece& piece : pattern.pieces) piece.cut = OutlineOf(piece);
+    constexpr double kRulingSpacing = 10;  // mm
+    for (Piece& piece : pattern.pieces) {
+      AddFolds(charts.charts[piece.id], params.fold_angle, piece);
+      AddRulings(charts.charts[piece.id], params.fold_angle, kRulingSpacing, piece);
+      poll();
+    }
+    AddTabs(params.tab_width, poll, pattern);
   }
 
   progress.BeginStage("Placing pieces...", from + 0.4 * (to - from), to);
