@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface/merge.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "planar/flatten.h"
 #include "surface_fixture.h"
 
 namespace dcharts {
@@ -87,6 +89,32 @@ TEST(Merge, ThresholdZeroMergesNothing) {
   const TestSurface surface(shapes::Grid(10, 10));
   const ChartIds ids = surface.Paint([](const auto& p) { return p[0] < 0.5 ? 0 : 1; });
   EXPECT_EQ(Merged(surface, ids, 0), ids);
+}
+
+TEST(Merge, ASmallThresholdHalvesChartsThatAreNotDevelopable) {
+  const TestSurface surface(shapes::SphericalCap(12, 1));
+  const ChartIds whole(surface->FaceCount(), 0);
+  const auto worst = [&](const ChartIds& ids) {
+    double stretch = 1;
+    for (int c = 0; c < ChartCount(ids); ++c)
+      stretch = std::max(stretch,
+                         Flatten(surface.Patch(ids, SeamMask(surface->FaceCount(), 0), c).mesh).l2_stretch);
+    return stretch;
+  };
+  ASSERT_GT(worst(whole), 1.002);
+  const ChartIds strict = Merged(surface, whole, 1e-5);
+  EXPECT_GT(ChartCount(strict), 1);
+  EXPECT_LT(worst(strict), 1.00075);
+  EXPECT_EQ(Merged(surface, whole), whole) << "the usual threshold";
+  EXPECT_EQ(Merged(surface, whole, 0), whole);
+  EXPECT_EQ(Merged(surface, whole, 1e-5, 1), whole) << "a number of charts goes before it";
+  Params params;
+  params.merge_threshold = 1e-5;
+  params.max_stretch = 0;  // as in the paper
+  ChartIds ids = whole;
+  Progress progress;
+  Merger<SurfaceMesh>(*surface, params, progress).Run(ids);
+  EXPECT_EQ(ids, whole);
 }
 
 TEST(Merge, LargestThresholdMergesEachComponentToOne) {
