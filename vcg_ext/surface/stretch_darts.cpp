@@ -128,32 +128,46 @@ DartedChart CutStretchDarts(const ChartPatch& patch, const Flattening* known, co
     const std::vector<double> stretch = VertexStretch(open, chart.flat.uv);
     PatchPaths paths(open);
     paths.Run(paths.BoundaryVertices(), true);
-    int tip = -1;
+    int worst = -1, innermost = -1;
     for (int h = 0; h < open.HalfEdgeCount(); ++h) {
       const int v = open.Vertex(h);
       const double reach = std::min(goal.longest, goal.most_length - total_length);
       if (hopeless[h / 3] || paths.OnBoundary(v) || !(paths.Distance(v) <= reach)) continue;
-      if (tip < 0 || stretch[v] > stretch[tip]) tip = v;
+      if (worst < 0 || stretch[v] > stretch[worst]) worst = v;
+      if (innermost < 0 || paths.Distance(v) > paths.Distance(innermost)) innermost = v;
     }
-    if (tip < 0) break;
-    const double length = paths.Distance(tip);
-    const std::vector<int> cut = paths.Path(tip);
-    ChartPatch trial = CutOpen(open, cut);
-    Flattening flat = Flatten(trial.mesh, options, poll);
-    if (Helps(chart.flat, flat, length, goal) &&
-        OverlappingPairs(OnGrid(flat.uv, trial.mesh.triangles), 1).empty()) {
-      chart.edges.insert(chart.edges.end(), cut.begin(), cut.end());
+    if (worst < 0) break;
+    // A round chart is stretched most at its rim, and yet a cut to its middle may relieve it more.
+    std::vector<int> tips{worst};
+    if (chart.flat.l2_stretch > goal.l2_stretch && innermost != worst) tips.push_back(innermost);
+    double best_gain = -1, best_length = 0;
+    DartedChart best;
+    for (int tip : tips) {
+      const double length = paths.Distance(tip);
+      const std::vector<int> cut = paths.Path(tip);
+      DartedChart trial{cut, 1, CutOpen(open, cut), {}};
+      trial.flat = Flatten(trial.patch.mesh, options, poll);
+      const double gain = (chart.flat.l2_stretch - trial.flat.l2_stretch) / length;
+      if (!Helps(chart.flat, trial.flat, length, goal) || (tip != worst && gain <= best_gain) ||
+          !OverlappingPairs(OnGrid(trial.flat.uv, trial.patch.mesh.triangles), 1).empty())
+        continue;
+      best_gain = gain;
+      best_length = length;
+      best = std::move(trial);
+    }
+    if (best.count > 0) {
+      chart.edges.insert(chart.edges.end(), best.edges.begin(), best.edges.end());
       ++chart.count;
-      total_length += length;
-      chart.patch = std::move(trial);
-      chart.flat = std::move(flat);
+      total_length += best_length;
+      chart.patch = std::move(best.patch);
+      chart.flat = std::move(best.flat);
       continue;
     }
     ++failures;
     PatchPaths around(open);
-    around.Run({tip}, false);
+    around.Run({worst}, false);
     for (int h = 0; h < open.HalfEdgeCount(); ++h)
-      if (around.Distance(open.Vertex(h)) <= length) hopeless[h / 3] = 1;
+      if (around.Distance(open.Vertex(h)) <= paths.Distance(worst)) hopeless[h / 3] = 1;
   }
   return chart;
 }
