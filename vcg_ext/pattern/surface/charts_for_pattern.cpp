@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 #include <utility>
 
 #include "common/parallel.h"
 #include "pattern/equal_seams.h"
+#include "pattern/place_pieces.h"
 #include "planar/flatten.h"
 #include "planar/overlap.h"
 #include "surface/chart_patch.h"
@@ -105,7 +107,13 @@ void ChartsForPattern::Flatten(ChartIds& ids, SeamMask& seams, const KnownFlatte
     if (shortened > 0) progress_.Log(std::to_string(shortened) + " darts were shortened.");
   }
   DropIneffectiveSeams(surface_, seams);
-  const int left = EqualizeAllSeams(ids, seams);
+  int joined = JoinSmallCharts(ids, seams), left = EqualizeAllSeams(ids, seams);
+  // Where charts had to be parted, small ones may be there anew.
+  const int joined_again = JoinSmallCharts(ids, seams);
+  if (joined_again > 0) left = EqualizeAllSeams(ids, seams);
+  joined += joined_again;
+  if (joined > 0)
+    progress_.Log(std::to_string(joined) + " pieces too small to work with were joined to others.");
   if (left > 0)
     progress_.Log("The seams of " + std::to_string(left) +
                   " pieces could not be made equally long: see the ease of the seams.");
@@ -180,7 +188,7 @@ void ChartsForPattern::Finish(Finished& chart, const std::function<void()>& poll
 }
 
 int ChartsForPattern::EqualizeAllSeams(ChartIds& ids, SeamMask& seams) {
-  constexpr int kRounds = 8;
+  constexpr int kRounds = 12;
   std::vector<char> done(surface_.FaceCount(), 0);
   int left = 0;
   for (int round = 0; round <= kRounds; ++round) {
@@ -205,6 +213,11 @@ int ChartsForPattern::EqualizeAllSeams(ChartIds& ids, SeamMask& seams) {
           continue;
         }
       }
+      if (IsTooLarge(chart) && chart.patch.faces.size() > 1) {
+        Store(chart.patch, chart.chart.uv / to_mm_);
+        PartChart(chart.patch, Bisect(chart.patch), next_id++, ids, seams);
+        continue;
+      }
       left += !chart.seams.whole;
       Store(chart.patch, chart.chart.uv / to_mm_);
       for (int f : chart.patch.faces) done[f] = 1;
@@ -212,6 +225,81 @@ int ChartsForPattern::EqualizeAllSeams(ChartIds& ids, SeamMask& seams) {
     SplitAndCompact(surface_, ids, &seams);
   }
   return left;
+}
+
+bool ChartsForPattern::IsTooLarge(const Finished& chart) const {
+  if (params_.page == PageFormat::kSingleSheet || params_.oversize != Oversize::kSplitPiece) return false;
+  const bool is_fabric = params_.material == PatternMaterial::kFabric;
+  // Packing turns pieces by steps, and corners of the allowance reach out: so a little less than the page.
+  constexpr double kSpare = 4;  // mm
+  const double around = kSpare + (is_fabric ? 2 * params_.seam_allowance : params_.tab_width);
+  Polyline points;
+  for (int h : chart.boundary) points.push_back(chart.chart.uv.row(StartOf(chart.chart, h)).transpose());
+  return !FitsInto(points, PrintableSize(params_.page) - Point2::Constant(2 * around));
+}
+
+int ChartsForPattern::JoinSmallCharts(ChartIds& ids, SeamMask& seams) {
+  const bool is_fabric = params_.material == PatternMaterial::kFabric;
+  const double width = is_fabric ? 3 * params_.seam_allowance : 2 * params_.tab_width;
+  constexpr double kSmallShare = 0.005;  // of the model's area
+  const double least = std::max(width * width / (to_mm_ * to_mm_), kSmallShare * surface_.TotalArea());
+  constexpr int kMostCharts = 100, kMostNeighbours = 3;  // bound the time
+  const auto charts = FacesOfCharts(ids);
+  std::vector<double> area(charts.size(), 0);
+  for (int f = 0; f < surface_.FaceCount(); ++f) area[ids[f]] += surface_.Area(f);
+  std::vector<int> small;
+  for (int c = 0; c < static_cast<int>(charts.size()); ++c)
+    if (area[c] < least) small.push_back(c);
+  std::stable_sort(small.begin(), small.end(), [&](int a, int b) { return area[a] < area[b]; });
+  if (small.size() > kMostCharts) small.resize(kMostCharts);
+  int joined = 0;
+  for (int c : small) {
+    progress_.Poll();
+    std::map<int, double> border;  // 3D length by neighbour
+    for (int h = 0; h < surface_.HalfEdgeCount(); ++h) {
+      const int g = surface_.Neighbour(h);
+      if (ids[h / 3] == c && g >= 0 && ids[g] != c) border[ids[g]] -= surface_.Length(h);
+    }
+    std::vector<std::pair<double, int>> longest_first;
+    for (const auto& [id, length] : border) longest_first.push_back({length, id});
+    std::sort(longest_first.begin(), longest_first.end());
+    if (longest_first.size() > kMostNeighbours) longest_first.resize(kMostNeighbours);
+    for (const auto& [length, d] : longest_first)
+      if (TryJoin(c, d, ids, seams)) {
+        ++joined;
+        break;
+      }
+  }
+  SplitAndCompact(surface_, ids, &seams);
+  return joined;
+}
+
+bool ChartsForPattern::TryJoin(int small, int other, ChartIds& ids, SeamMask& seams) {
+  SeamMask joined = seams;
+  std::vector<int> faces;
+  for (int f = 0; f < surface_.FaceCount(); ++f) {
+    if (ids[f] != small && ids[f] != other) continue;
+    faces.push_back(f);
+    for (int h = 3 * f; h < 3 * f + 3; ++h) {
+      const int g = surface_.Neighbour(h);
+      if (g >= 0 && ids[g] != ids[f] && (ids[g] == small || ids[g] == other)) ClearSeam(joined, h);
+    }
+  }
+  const ChartPatch patch = PatchExtractor<SurfaceMesh>(surface_, joined).Extract(faces);
+  FlattenOptions options;
+  options.method = params_.method;
+  const Flattening flat = dcharts::Flatten(patch.mesh, options, [&] { progress_.Poll(); });
+  // A small part may stretch more than the rest: fabric gives, and a speck of paper is no worse than a gap.
+  constexpr double kFabricGives = 1.02, kPaperGives = 1.001;
+  const double bound =
+      std::max(params_.StretchBound(),
+               params_.material == PatternMaterial::kFabric ? kFabricGives : kPaperGives);
+  if (!flat.ok || !flat.note.empty() || flat.l2_stretch > bound) return false;
+  if (!OverlappingPairs(OnGrid(flat.uv, patch.mesh.triangles), 1).empty()) return false;
+  seams = std::move(joined);
+  for (int f : faces) ids[f] = other;
+  Store(patch, flat.uv);
+  return true;
 }
 
 bool ChartsForPattern::SewUpCrossingDarts(const Finished& chart, SeamMask& seams) {

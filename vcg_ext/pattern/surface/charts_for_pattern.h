@@ -31,8 +31,13 @@ class ChartsForPattern {
   /// became shorter; Flatten does so for fabric.
   int ShortenDarts(const ChartIds& ids, SeamMask& seams);
 
+  /// Joins charts too small to sew or to glue to a neighbour, where both lie flat together. Returns how many
+  /// it joined.
+  int JoinSmallCharts(ChartIds& ids, SeamMask& seams);
+
   /// Gives both sides of every seam the same length. A chart whose outline would cross itself then has its
-  /// darts sewn up that cross, or is parted. Returns how many charts were left with seams of unequal length.
+  /// darts sewn up that cross, or is parted; so is one that
+  /// has to fit onto a page and doesn't. Returns how many charts were left with seams of unequal length.
   int EqualizeAllSeams(ChartIds& ids, SeamMask& seams);
 
   /// The flat charts in mm, at their places on the finished object. `data`, `source_face`: the mesh that the
@@ -44,6 +49,8 @@ class ChartsForPattern {
   struct Finished;
   FlatChart ChartOf(const ChartPatch& patch) const;
   void Finish(Finished& chart, const std::function<void()>& poll) const;
+  bool IsTooLarge(const Finished& chart) const;
+  bool TryJoin(int small, int other, ChartIds& ids, SeamMask& seams);
   bool SewUpCrossingDarts(const Finished& chart, SeamMask& seams);
   Points2 StoredUv(const ChartPatch& patch) const;
   void Store(const ChartPatch& patch, const Points2& uv);
