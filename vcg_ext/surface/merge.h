@@ -16,7 +16,7 @@
 #include "surface/charts.h"
 #include "surface/dual_distance.h"
 #include "surface/split_bad_charts.h"
-#include "surface/straighten_graph_cut.h"
+#include "surface/straighten.h"
 
 namespace dcharts {
 
@@ -59,8 +59,9 @@ class Merger {
   void Run(ChartIds& ids) {
     if (params_.target_charts == 0 && params_.merge_threshold > 0 && StrictStretch() < params_.max_stretch) {
       SplitBadCharts(surface_, StrictStretch(), progress_, ids);
-      // Not by params.straighten_by, which a user who only merges cannot set.
-      GraphCutStraightener<MeshType>(surface_, GraphCutOptions{}, progress_).Run(ids);
+      // By the default: a user who only merges has no say in how.
+      const Params defaults;
+      StraightenBorders(surface_, defaults, progress_, ids);
     }
     Prepare(ids);
     using Item =
