@@ -10,6 +10,7 @@
 
 #include "pattern/allowance.h"
 #include "pattern/build_pieces.h"
+#include "pattern/congruence.h"
 #include "pattern/equal_outlines.h"
 #include "pattern/folds.h"
 #include "pattern/grain.h"
@@ -77,6 +78,9 @@ Pattern PatternOfCharts(FlatCharts charts, const Params& params, Progress& progr
     piece.label_radius = label.radius;
     poll();
   }
+  // Both outlines of a pair may be off by the tolerance.
+  FindCongruentPieces(2 * params.simplify_tolerance, pattern);
+  CountCopies(params.merge_congruent, pattern);
   AddMatchPoints(pattern);
   SetSewingOrder(pattern);
   if (params.material == PatternMaterial::kFabric) {

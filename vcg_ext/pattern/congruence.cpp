@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pattern/congruence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <vector>
+
+#include "pattern/outline.h"
+#include "pattern/segments.h"
+
+namespace dcharts {
+namespace {
+
+using Complex = std::complex<double>;
+
+// Points at equal steps along a closed loop.
+std::vector<Complex> Samples(const Polyline& loop, int count) {
+  std::vector<double> length{0};
+  for (size_t k = 0; k < loop.size(); ++k)
+    length.push_back(length.back() + (loop[(k + 1) % loop.size()] - loop[k]).norm());
+  std::vector<Complex> samples;
+  size_t edge = 0;
+  for (int s = 0; s < count; ++s) {
+    const double at = length.back() * s / count;
+    while (edge + 1 < loop.size() && length[edge + 1] < at) ++edge;
+    const double span = length[edge + 1] - length[edge], t = span > 0 ? (at - length[edge]) / span : 0;
+    const Point2 p = loop[edge] + t * (loop[(edge + 1) % loop.size()] - loop[edge]);
+    samples.emplace_back(p.x(), p.y());
+  }
+  return samples;
+}
+
+/// A piece's outer outline, about the middle of its samples.
+struct Shape {
+  std::vector<Polyline> loops;
+  std::vector<Complex> samples;
+  double area = 0, length = 0, size = 0;
+};
+
+constexpr int kSamples = 256;
+
+Shape ShapeOf(const Piece& piece, bool mirrored) {
+  Shape shape;
+  shape.loops = OutlineOf(piece);
+  if (mirrored)
+    for (Polyline& loop : shape.loops) {
+      for (Point2& p : loop) p.x() = -p.x();
+      std::reverse(loop.begin(), loop.end());
+    }
+  shape.samples = Samples(shape.loops.front(), kSamples);
+  Complex middle = 0;
+  for (const Complex& z : shape.samples) middle += z / static_cast<double>(kSamples);
+  for (Complex& z : shape.samples) z -= middle;
+  for (Polyline& loop : shape.loops)
+    for (Point2& p : loop) p -= Point2(middle.real(), middle.imag());
+  shape.area = piece.area;
+  for (const Complex& z : shape.samples) shape.size = std::max(shape.size, 2 * std::abs(z));
+  const Polyline& outer = shape.loops.front();
+  for (size_t k = 0; k < outer.size(); ++k) shape.length += (outer[(k + 1) % outer.size()] - outer[k]).norm();
+  return shape;
+}
+
+// How far the corners of one are from the outline of the other, turned by `turn`.
+double FarthestCorner(const std::vector<Polyline>& from, const Complex& turn,
+                      const std::vector<Polyline>& to) {
+  double farthest = 0;
+  for (const Polyline& loop : from)
+    for (const Point2& p : loop) {
+      const Complex z = turn * Complex(p.x(), p.y());
+      const Point2 q(z.real(), z.imag());
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const Polyline& other : to)
+        for (size_t k = 0; k < other.size(); ++k)
+          nearest = std::min(nearest, DistanceToSegment(q, other[k], other[(k + 1) % other.size()]));
+      farthest = std::max(farthest, nearest);
+    }
+  return farthest;
+}
+
+bool AreCongruent(const Shape& a, const Shape& b, double tolerance) {
+  constexpr double kOfSize = 0.03;
+  const double most = std::min(tolerance, kOfSize * std::max(a.size, b.size));
+  if (a.loops.size() != b.loops.size()) return false;
+  if (std::abs(a.area - b.area) > most * std::max(a.length, b.length)) return false;
+  if (std::abs(a.size - b.size) > 4 * most) return false;
+  // Of all starting points along the loop the ones that fit best; the best turn of each is known.
+  std::vector<std::pair<double, Complex>> turns;  // less fit first value: sum of products, larger is better
+  for (int shift = 0; shift < kSamples; ++shift) {
+    Complex sum = 0;
+    for (int s = 0; s < kSamples; ++s) sum += a.samples[(s + shift) % kSamples] * std::conj(b.samples[s]);
+    if (std::abs(sum) > 0) turns.push_back({-std::abs(sum), std::conj(sum) / std::abs(sum)});
+  }
+  std::sort(turns.begin(), turns.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+  constexpr size_t kTries = 8;  // round pieces fit in several ways
+  if (turns.size() > kTries) turns.resize(kTries);
+  return std::any_of(turns.begin(), turns.end(), [&](const auto& turn) {
+    return FarthestCorner(a.loops, turn.second, b.loops) <= most &&
+           FarthestCorner(b.loops, std::conj(turn.second), a.loops) <= most;
+  });
+}
+
+}  // namespace
+
+void FindCongruentPieces(double tolerance, Pattern& pattern) {
+  std::vector<Shape> shapes;
+  for (const Piece& piece : pattern.pieces) shapes.push_back(ShapeOf(piece, false));
+  for (Piece& piece : pattern.pieces) {
+    piece.group = piece.id;
+    piece.mirrored = false;
+    const Shape mirrored = ShapeOf(piece, true);
+    for (int other = 0; other < piece.id; ++other) {
+      if (pattern.pieces[other].group != other) continue;
+      const bool same = AreCongruent(shapes[piece.id], shapes[other], tolerance);
+      if (!same && !AreCongruent(mirrored, shapes[other], tolerance)) continue;
+      piece.group = other;
+      piece.mirrored = !same;
+      break;
+    }
+  }
+}
+
+void CountCopies(bool merge, Pattern& pattern) {
+  for (Piece& piece : pattern.pieces) {
+    piece.drawn = !merge || piece.group == piece.id;
+    piece.copies = piece.drawn ? 1 : 0;
+    piece.mirror_copies = 0;
+  }
+  if (!merge) return;
+  for (const Piece& piece : pattern.pieces) {
+    if (piece.drawn) continue;
+    Piece& first = pattern.pieces[piece.group];
+    ++(piece.mirrored ? first.mirror_copies : first.copies);
+  }
+}
+
+}  // namespace dcharts
