@@ -6,7 +6,7 @@ execute_process(COMMAND ${PROGRAM} ${FOLDER} RESULT_VARIABLE result)
 if(NOT result EQUAL 0)
   message(FATAL_ERROR "${PROGRAM} failed")
 endif()
-foreach(script texture_atlas stages paper)
+foreach(script texture_atlas stages paper pattern)
   execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files --ignore-eol ${FOLDER}/${script}.mlx
                           ${EXAMPLES}/${script}.mlx RESULT_VARIABLE result)
   if(NOT result EQUAL 0)

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "adapter_2020.h"
 
+#include <QDir>
+#include <QFileInfo>
+
+using RichFileSave = RichSaveFile;  // as MeshLab 2025.07 calls it
+
 #include "host_filter.h"
 
 namespace dcharts {
@@ -9,6 +14,10 @@ namespace {
 
 struct Host {
   static void UpdateBox(MeshModel& layer) { layer.UpdateBoxAndNormals(); }
+  static QImage Texture(const MeshModel& model, const std::string& name) {
+    // MeshLab has made the folder of the mesh the place where its textures are.
+    return QImage(QFileInfo(model.fullName()).dir().filePath(QString::fromStdString(name)));
+  }
   static void RemoveLayer(MeshDocument& document, MeshModel& layer) { document.delMesh(&layer); }
 };
 

@@ -11,6 +11,10 @@ namespace {
 
 struct Host {
   static void UpdateBox(MeshModel& layer) { layer.updateBoxAndNormals(); }
+  static QImage Texture(const MeshModel& model, const std::string& name) {
+    const auto texture = model.getTextures().find(name);
+    return texture != model.getTextures().end() ? texture->second : QImage();
+  }
   static void RemoveLayer(MeshDocument& document, MeshModel& layer) {
     document.delMesh(static_cast<unsigned int>(layer.id()));
   }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_table.h"
 
-#include <algorithm>
 #include <initializer_list>
-#include <iterator>
 #include <locale>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -197,6 +196,72 @@ std::vector<ParamSpec> MakeParams() {
        1,
        false,
        {"Uniform", "Vertex Quality"}},
+      // --- patterns
+      {"material",
+       "Material",
+       "What the pattern is for. Fabric is sewn and stuffed: pieces get a seam allowance, notches and a "
+       "grain "
+       "arrow. Paper is cut, folded and glued: pieces do not stretch, and get glue tabs and fold lines.",
+       &Params::material,
+       0,
+       1,
+       false,
+       {"Fabric", "Paper"}},
+      {"size", "Longest side",
+       "Longest side of the finished object's bounding box, along the axes, in the unit chosen. 0 takes the "
+       "mesh's own coordinates.",
+       &Params::size, 0, 100000},
+      {"units",
+       "Unit",
+       "Unit of the longest side, and of the mesh's coordinates where that is 0. All other lengths are mm.",
+       &Params::units,
+       0,
+       1,
+       false,
+       {"mm", "inch"}},
+      {"seam_allowance", "Seam allowance (mm)",
+       "Of fabric: how far outside the stitch line to cut, in mm. Larger values are easier to sew and take "
+       "more fabric; 0 cuts at the stitch line.",
+       &Params::seam_allowance, 0, 100},
+      {"tab_width", "Width of glue tabs (mm)",
+       "Of paper: width of the tabs to put glue on, one at each seam, in mm. They are narrower where there "
+       "is no room. 0 makes none.",
+       &Params::tab_width, 0, 100},
+      {"simplify_tolerance", "Simplify outlines (mm)",
+       "How far a simplified outline may be from the exact one, in mm; both sides of a seam are simplified "
+       "together. Larger values give fewer corners; 0 keeps all.",
+       &Params::simplify_tolerance, 0, 100},
+      {"fold_angle", "Folds sharper than (degrees)",
+       "Of paper: where it bends by more than this, in degrees, a fold line with its angle is drawn. Larger "
+       "values give fewer folds; 0 draws one at every edge that bends at all.",
+       &Params::fold_angle, 0, 180},
+      {"merge_congruent", "Draw equal pieces once",
+       "Pieces of the same shape, or its mirror image, are drawn once, with the number to cut.",
+       &Params::merge_congruent},
+      {"print_texture", "Print the model's colours",
+       "Draws the model's texture, or the colours of its vertices or faces, into the pieces of the file.",
+       &Params::print_texture},
+      {"page",
+       "Page",
+       "Pages of a PDF. SVG and DXF are always a single sheet.",
+       &Params::page,
+       0,
+       4,
+       false,
+       {"Single sheet", "A4", "A3", "A0", "Letter"}},
+      {"oversize",
+       "Piece larger than the page",
+       "What becomes of a piece that is larger than the page. Tile draws it over several pages that overlap, "
+       "to be glued together. Split Piece makes it several pieces with seams between them.",
+       &Params::oversize,
+       0,
+       1,
+       false,
+       {"Tile", "Split Piece"}},
+      {"output_file", "File to write",
+       "The drawing for printer, cutter or plotter, with all notation: SVG, PDF or DXF by its ending. A "
+       "relative name is relative to the working directory. Empty writes none and only adds the layer.",
+       &Params::output_file},
   };
 }
 
@@ -208,12 +273,6 @@ std::vector<const ParamSpec*> Pick(std::initializer_list<std::string_view> names
       if (name == spec.name) picked.push_back(&spec);
   if (picked.size() != names.size())
     throw std::logic_error("a filter names a parameter that is not in the table");
-  return picked;
-}
-
-std::vector<const ParamSpec*> PickAll() {
-  std::vector<const ParamSpec*> picked;
-  for (const ParamSpec& spec : AllParams()) picked.push_back(&spec);
   return picked;
 }
 
@@ -281,7 +340,64 @@ std::vector<FilterSpec> MakeFilters() {
       {FilterId::kTextureAtlas, "D-Charts: Texture Atlas", "dcharts_texture_atlas",
        "Makes a texture atlas: the six D-Charts stages in one. Writes chart numbers to the face quality, "
        "colours to the face colour, texture coordinates to the wedges; vertices and faces stay as they are.",
-       "Sections 2 to 5", atlas, coloring, PickAll()},
+       "Sections 2 to 5", atlas, coloring,
+       Pick({"chart_count",
+             "max_fitting_error",
+             "fitting_weight",
+             "compactness_weight",
+             "straightness_weight",
+             "max_iterations",
+             "reassigned_percent",
+             "seed_candidates",
+             "seed_percent",
+             "small_hole_percent",
+             "target_charts",
+             "max_stretch",
+             "straighten_by",
+             "merge_by",
+             "seam_weight",
+             "merge_threshold",
+             "dart_by",
+             "dart_fitting_error",
+             "max_dart_percent",
+             "cut_to_disk",
+             "seam_layer",
+             "method",
+             "texture_size",
+             "padding",
+             "rotate",
+             "density_by"})},
+      {FilterId::kPattern, "D-Charts: Pattern", "dcharts_pattern",
+       "Makes a pattern to sew or to fold: flat pieces in mm, at the size of the finished object, with "
+       "seams, "
+       "darts and notation. Adds one layer with the pieces, lying side by side, and writes them to a file. "
+       "The mesh itself stays as it is.",
+       "Section 4", kWritesNothing, texture,
+       Pick({"target_charts",
+             "max_stretch",
+             "chart_count",
+             "max_fitting_error",
+             "fitting_weight",
+             "compactness_weight",
+             "straightness_weight",
+             "merge_by",
+             "seam_weight",
+             "merge_threshold",
+             "dart_by",
+             "dart_fitting_error",
+             "max_dart_percent",
+             "material",
+             "size",
+             "units",
+             "seam_allowance",
+             "tab_width",
+             "simplify_tolerance",
+             "fold_angle",
+             "merge_congruent",
+             "print_texture",
+             "page",
+             "oversize",
+             "output_file"})},
       {FilterId::kMeasure,
        "D-Charts: Measure",
        "dcharts_measure",
@@ -314,13 +430,17 @@ const std::vector<FilterSpec>& AllFilters() {
 }
 
 bool IsAdvanced(const FilterSpec& filter, const ParamSpec& param) {
-  static const char* const kDetails[] = {"fitting_weight",    "compactness_weight", "straightness_weight",
-                                         "max_iterations",    "reassigned_percent", "seed_candidates",
-                                         "seed_percent",      "small_hole_percent", "merge_threshold",
-                                         "dart_fitting_error"};
-  return filter.id == FilterId::kTextureAtlas &&
-         std::any_of(std::begin(kDetails), std::end(kDetails),
-                     [&](const char* name) { return std::string(name) == param.name; });
+  static const std::set<std::string_view> of_atlas = {
+      "fitting_weight",     "compactness_weight", "straightness_weight", "max_iterations",
+      "reassigned_percent", "seed_candidates",    "seed_percent",        "small_hole_percent",
+      "merge_threshold",    "dart_fitting_error"};
+  static const std::set<std::string_view> of_pattern = {
+      "chart_count",        "max_fitting_error",   "fitting_weight",
+      "compactness_weight", "straightness_weight", "merge_by",
+      "seam_weight",        "merge_threshold",     "dart_by",
+      "dart_fitting_error", "max_dart_percent",    "simplify_tolerance"};
+  if (filter.id == FilterId::kTextureAtlas) return of_atlas.count(param.name) > 0;
+  return filter.id == FilterId::kPattern && of_pattern.count(param.name) > 0;
 }
 
 const FilterSpec& GetFilter(FilterId id) {
@@ -330,7 +450,14 @@ const FilterSpec& GetFilter(FilterId id) {
 }
 
 double ValueOf(const ParamSpec& spec, const Params& params) {
-  return std::visit([&](auto field) { return static_cast<double>(params.*field); }, spec.field);
+  return std::visit(
+      [&](auto field) -> double {
+        if constexpr (std::is_same_v<std::decay_t<decltype(params.*field)>, std::string>)
+          throw std::logic_error("a file name is no number");
+        else
+          return static_cast<double>(params.*field);
+      },
+      spec.field);
 }
 
 void SetValue(const ParamSpec& spec, double value, Params& params) {
@@ -341,6 +468,8 @@ void SetValue(const ParamSpec& spec, double value, Params& params) {
           params.*field = static_cast<Value>(static_cast<int>(value));
         else if constexpr (std::is_same_v<Value, bool>)
           params.*field = value != 0;
+        else if constexpr (std::is_same_v<Value, std::string>)
+          throw std::logic_error("a number is no file name");
         else
           params.*field = static_cast<Value>(value);
       },
@@ -353,6 +482,7 @@ std::string ChoiceText(const ParamSpec& spec, const Params& params) {
 
 std::string RangeText(const ParamSpec& spec) {
   if (std::holds_alternative<bool Params::*>(spec.field)) return "true or false";
+  if (IsFile(spec)) return "a name that ends in .svg, .pdf or .dxf, or empty";
   if (IsEnum(spec)) {
     std::string text;
     for (std::size_t i = 0; i < spec.choices.size(); ++i) {
@@ -372,6 +502,7 @@ std::string TooltipText(const ParamSpec& spec) {
   std::string text = spec.tooltip;
   if (std::holds_alternative<bool Params::*>(spec.field))
     return text + " Default: " + (ValueOf(spec, Params()) != 0 ? "on." : "off.");
+  if (IsFile(spec)) return text + " It is " + RangeText(spec) + ". Default: empty.";
   if (IsEnum(spec))
     return text + " One of: " + RangeText(spec) + ". Default: '" + ChoiceText(spec, Params()) + "'.";
   return text + " Range: " + RangeText(spec) + ". Default: " + NumberText(ValueOf(spec, Params())) + ".";

@@ -15,9 +15,10 @@ namespace dcharts {
 /// One public parameter: where it lives in Params (its default is what a default-constructed Params holds),
 /// its range and what a user is told about it.
 struct ParamSpec {
-  using Field =
-      std::variant<int Params::*, double Params::*, bool Params::*, StraightenMethod Params::*,
-                   MergeMethod Params::*, DartMethod Params::*, FlattenMethod Params::*, DensityBy Params::*>;
+  using Field = std::variant<int Params::*, double Params::*, bool Params::*, std::string Params::*,
+                             StraightenMethod Params::*, MergeMethod Params::*, DartMethod Params::*,
+                             FlattenMethod Params::*, DensityBy Params::*, PatternMaterial Params::*,
+                             LengthUnit Params::*, PageFormat Params::*, Oversize Params::*>;
 
   const char* name;   ///< public name, snake_case, equal to the name of the field
   const char* label;  ///< shown beside the input in a dialog
@@ -32,7 +33,22 @@ struct ParamSpec {
 
 inline bool IsEnum(const ParamSpec& spec) { return !spec.choices.empty(); }
 
-enum class FilterId { kSegment, kFill, kStraighten, kMerge, kCut, kParameterize, kTextureAtlas, kMeasure };
+/// The name of a file to write.
+inline bool IsFile(const ParamSpec& spec) {
+  return std::holds_alternative<std::string Params::*>(spec.field);
+}
+
+enum class FilterId {
+  kSegment,
+  kFill,
+  kStraighten,
+  kMerge,
+  kCut,
+  kParameterize,
+  kTextureAtlas,
+  kPattern,
+  kMeasure
+};
 
 /// What a filter may write to the user's mesh; bits to be or-ed.
 enum Writes : unsigned {
@@ -66,13 +82,13 @@ const std::vector<ParamSpec>& AllParams();
 /// Every filter, in the order of its use.
 const std::vector<FilterSpec>& AllFilters();
 
-/// A detail of one stage in the filter that has the parameters of all: too many for a screen.
+/// A detail of one stage in a filter that has the parameters of all: too many for a screen.
 bool IsAdvanced(const FilterSpec& filter, const ParamSpec& param);
 
 /// The filter with this id.
 const FilterSpec& GetFilter(FilterId id);
 
-/// A parameter's value as a double (a bool is 0 or 1, an enum the index of the choice).
+/// A parameter's value as a double (a bool is 0 or 1, an enum the index of the choice). Not of a file.
 double ValueOf(const ParamSpec& spec, const Params& params);
 /// Sets it from such a number.
 void SetValue(const ParamSpec& spec, double value, Params& params);

@@ -36,6 +36,9 @@ void AddParams(const FilterSpec& filter, List& list) {
       AddParam<RichInt>(list, advanced, name, defaults.**count, label, tooltip);
     else if (const auto* number = std::get_if<double Params::*>(&spec->field))
       AddParam<RichFloat>(list, advanced, name, static_cast<float>(defaults.**number), label, tooltip);
+    else if (IsFile(*spec))
+      AddParam<RichFileSave>(list, advanced, name, QString(), QString("SVG, PDF, DXF (*.svg *.pdf *.dxf)"),
+                             label, tooltip);
     else if (IsEnum(*spec)) {
       QStringList choices;
       for (const char* choice : spec->choices) choices << QString(choice);
@@ -57,6 +60,8 @@ Params ReadParams(const FilterSpec& filter, const List& list) {
       params.** count = list.getInt(name);
     else if (const auto* number = std::get_if<double Params::*>(&spec->field))
       params.** number = FromHostFloat(static_cast<float>(list.getFloat(name)));
+    else if (const auto* file = std::get_if<std::string Params::*>(&spec->field))
+      params.** file = list.getSaveFileName(name).toStdString();
     else if (IsEnum(*spec))
       SetValue(*spec, list.getEnum(name), params);
   }
@@ -84,9 +89,23 @@ typename Plugin::FilterClass ClassOf(const FilterSpec& filter) {
   return static_cast<typename Plugin::FilterClass>(bits);
 }
 
+/// Adds a layer, which does not become the current one, and fills it; when that fails, takes it away again.
+template <class Host, class Document, class Fill>
+void AddLayer(Document& document, const char* name, Fill fill) {
+  auto* layer = document.addNewMesh(QString(), QString(name), false);
+  try {
+    fill(*layer);
+    Host::UpdateBox(*layer);
+  } catch (...) {
+    Host::RemoveLayer(document, *layer);
+    throw;
+  }
+}
+
 /// Runs the filter on the document's current mesh and writes the result at the end; a new layer does not
 /// become the current one. Host::UpdateBox(model) finishes a new layer, Host::RemoveLayer(document, model)
-/// removes it. Throws Error and Cancelled, nothing else; then the document is unchanged.
+/// removes it, Host::Texture(model, name) is a texture's image. Throws Error and Cancelled, nothing else;
+/// then the document is unchanged.
 template <class Host, class Document, class List>
 Report RunOnDocument(const FilterSpec& filter, const List& list, Document& document,
                      const Progress::Callback& callback, const Progress::Logger& log) {
@@ -94,22 +113,22 @@ Report RunOnDocument(const FilterSpec& filter, const List& list, Document& docum
     Progress progress(callback, log);
     auto* model = document.mm();
     SurfaceData surface;
-    if (model != nullptr) surface = ReadSurface(model->cm);
-    const SurfaceChange change =
-        RunFilter(filter, model != nullptr ? &surface : nullptr, ReadParams(filter, list), progress);
+    const Params params = ReadParams(filter, list);
+    if (model != nullptr) {
+      surface = ReadSurface(model->cm);
+      if (params.print_texture) ReadColors<Host>(*model, surface);
+    }
+    const SurfaceChange change = RunFilter(filter, model != nullptr ? &surface : nullptr, params, progress);
 
     SurfaceWriter writer(*model, change);
-    if (!change.seam_lines.empty()) {
-      auto* layer = document.addNewMesh(QString(), QString("D-Charts seams"), false);
-      try {
-        FillSeamLayer(change.seam_lines, layer->cm);
-        layer->cm.Tr = model->cm.Tr;
-        Host::UpdateBox(*layer);
-      } catch (...) {
-        Host::RemoveLayer(document, *layer);
-        throw;
-      }
-    }
+    if (!change.seam_lines.empty())
+      AddLayer<Host>(document, "D-Charts seams", [&](auto& layer) {
+        FillSeamLayer(change.seam_lines, layer.cm);
+        layer.cm.Tr = model->cm.Tr;
+      });
+    if (!change.pieces.faces.empty())
+      AddLayer<Host>(document, "D-Charts pattern",
+                     [&](auto& layer) { FillPieceLayer(change.pieces, layer); });
     writer.Commit();
     for (const std::string& line : LogLines(change.report)) log(line);
     return change.report;

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <QImage>
+
 #include <vcg/complex/complex.h>
 
 #include "common/errors.h"
@@ -65,6 +67,38 @@ SurfaceData ReadSurface(Mesh& mesh) {
     }
   }
   return data;
+}
+
+/// Reads the model's colours as well: textures, and the colours of vertices or else of faces, where they are
+/// not all the same. Host::Texture(model, name) is the QImage of a texture.
+template <class Host, class Model>
+void ReadColors(const Model& model, SurfaceData& data) {
+  const auto& mesh = model.cm;
+  for (const std::string& name : mesh.textures) {
+    const QImage image = Host::Texture(model, name).convertToFormat(QImage::Format_RGB888);
+    TextureImage texture{image.width(), image.height(), {}};
+    for (int y = 0; y < image.height(); ++y)
+      texture.rgb.insert(texture.rgb.end(), image.constScanLine(y),
+                         image.constScanLine(y) + 3 * image.width());
+    data.textures.push_back(std::move(texture));
+  }
+  for (const bool of_vertices : {true, false}) {
+    if (!of_vertices && !vcg::tri::HasPerFaceColor(mesh)) break;
+    std::vector<std::array<std::array<std::uint8_t, 3>, 3>> colors;
+    bool all_same = true;
+    for (const auto& face : mesh.face) {
+      if (face.IsD()) continue;
+      colors.emplace_back();
+      for (int k = 0; k < 3; ++k) {
+        const vcg::Color4b color = of_vertices ? face.cV(k)->cC() : face.cC();
+        colors.back()[k] = {color[0], color[1], color[2]};
+        all_same = all_same && colors.back()[k] == colors.front()[0];
+      }
+    }
+    if (all_same) continue;
+    data.corner_colors = std::move(colors);
+    break;
+  }
 }
 
 /// Writes a change to the mesh it was computed for, in two steps. The constructor gets all the memory that is
@@ -167,6 +201,24 @@ void FillSeamLayer(const std::vector<std::array<std::array<double, 3>, 2>>& line
       ++vertex;
     }
     ++edge;
+  }
+}
+
+/// Fills an empty layer with a pattern's pieces: the piece's number is the face quality.
+template <class Model>
+void FillPieceLayer(const FlatLayer& pieces, Model& layer) {
+  auto& mesh = layer.cm;
+  using Mesh = std::remove_reference_t<decltype(mesh)>;
+  using Scalar = typename Mesh::ScalarType;
+  layer.updateDataMask(Model::MM_FACEQUALITY | Model::MM_FACECOLOR);
+  auto vertex = vcg::tri::Allocator<Mesh>::AddVertices(mesh, pieces.vertices.size());
+  for (const auto& p : pieces.vertices) (vertex++)->P() = {Scalar(p[0]), Scalar(p[1]), Scalar(p[2])};
+  auto face = vcg::tri::Allocator<Mesh>::AddFaces(mesh, pieces.faces.size());
+  for (std::size_t f = 0; f < pieces.faces.size(); ++f, ++face) {
+    for (int k = 0; k < 3; ++k) face->V(k) = &mesh.vert[pieces.faces[f][k]];
+    face->Q() = static_cast<Scalar>(pieces.piece[f]);
+    const auto& rgb = pieces.colors[f];
+    face->C() = vcg::Color4b(rgb[0], rgb[1], rgb[2], 255);
   }
 }
 

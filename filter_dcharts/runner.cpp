@@ -8,6 +8,8 @@
 #include <sstream>
 
 #include "dcharts.h"
+#include "pattern/drawing/flat_layer.h"
+#include "pattern/drawing/write_pattern.h"
 
 namespace dcharts {
 
@@ -29,6 +31,18 @@ bool Has(const FilterSpec& filter, const std::string& name) {
   return false;
 }
 
+// The file is written last, so that a failure before leaves none.
+SurfaceChange MakePatternLayerAndFile(const SurfaceData& mesh, const Params& params, Progress& progress) {
+  PatternResult result = MakePattern(mesh, params, progress);
+  SurfaceChange change;
+  change.report = std::move(result.report);
+  change.pieces = LayerOf(result.pattern);
+  for (const std::string& warning : result.pattern.warnings) progress.Log(warning);
+  if (!params.output_file.empty())
+    for (const std::string& line : WritePattern(result.pattern, mesh, params)) progress.Log(line);
+  return change;
+}
+
 SurfaceChange Call(FilterId id, const SurfaceData& mesh, const Params& params, Progress& progress) {
   switch (id) {
     case FilterId::kSegment:
@@ -45,6 +59,8 @@ SurfaceChange Call(FilterId id, const SurfaceData& mesh, const Params& params, P
       return Parameterize(mesh, params, progress);
     case FilterId::kTextureAtlas:
       return TextureAtlas(mesh, params, progress);
+    case FilterId::kPattern:
+      return MakePatternLayerAndFile(mesh, params, progress);
     case FilterId::kMeasure:
       return Measure(mesh, params, progress);
   }
@@ -59,10 +75,11 @@ std::string FigureText(const std::variant<int, double>& value) {
 
 void CheckParams(const FilterSpec& filter, const Params& params) {
   for (const ParamSpec* spec : filter.params) {
-    if (InRange(*spec, ValueOf(*spec, params))) continue;
+    if (IsFile(*spec) || InRange(*spec, ValueOf(*spec, params))) continue;
     throw Error(std::string(spec->name) + " must be " + RangeText(*spec) + "; you gave " +
                 ValueText(*spec, params) + ".");
   }
+  if (Has(filter, "output_file") && !params.output_file.empty()) CheckOutputFile(params.output_file);
   if (Has(filter, "padding") && params.padding > params.texture_size / 4)
     throw Error("padding must be at most a quarter of texture_size, here " +
                 std::to_string(params.texture_size / 4) + "; you gave " + std::to_string(params.padding) +

@@ -33,6 +33,15 @@ Params PaperParams() {
   return params;
 }
 
+// A stuffed toy of 30 cm, on pages to print.
+Params PatternParams() {
+  Params params;
+  params.size = 300;
+  params.page = PageFormat::kA4;
+  params.output_file = "pattern.pdf";
+  return params;
+}
+
 std::string Escape(const std::string& text) {
   std::string escaped;
   for (char c : text) {
@@ -51,6 +60,10 @@ std::string Escape(const std::string& text) {
 }
 
 std::string ParamElement(const ParamSpec& spec, const Params& params) {
+  if (IsFile(spec))
+    return "  <Param name=\"" + std::string(spec.name) + "\" type=\"RichSaveFile\" value=\"" +
+           Escape(params.output_file) + "\" ext=\"SVG, PDF, DXF (*.svg *.pdf *.dxf)\" description=\"" +
+           Escape(spec.label) + "\" tooltip=\"" + Escape(TooltipText(spec)) + "\"/>\n";
   const double number = ValueOf(spec, params);
   std::string type = "RichFloat", value = NumberText(number);
   if (std::holds_alternative<int Params::*>(spec.field)) type = "RichInt";
@@ -105,6 +118,7 @@ int main(int argc, char** argv) {
                                         FilterId::kMerge,   FilterId::kCut,  FilterId::kParameterize};
   const bool ok = WriteFile(folder + "/texture_atlas.mlx", Script({FilterId::kTextureAtlas}, Params())) &&
                   WriteFile(folder + "/stages.mlx", Script(stages, Params())) &&
-                  WriteFile(folder + "/paper.mlx", Script({FilterId::kTextureAtlas}, PaperParams()));
+                  WriteFile(folder + "/paper.mlx", Script({FilterId::kTextureAtlas}, PaperParams())) &&
+                  WriteFile(folder + "/pattern.mlx", Script({FilterId::kPattern}, PatternParams()));
   return ok ? 0 : 1;
 }

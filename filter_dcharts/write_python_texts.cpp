@@ -20,6 +20,9 @@ std::string Quote(const std::string& text) {
 }
 
 std::string ParamObject(const ParamSpec& spec) {
+  if (IsFile(spec))
+    return "{\"name\": " + Quote(spec.name) +
+           ", \"type\": \"str\", \"default\": \"\", \"text\": " + Quote(TooltipText(spec)) + "}";
   const double number = ValueOf(spec, Params());
   std::string type = "float", value = NumberText(number);
   if (std::holds_alternative<int Params::*>(spec.field)) type = "int";

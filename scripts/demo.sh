@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Sets everything up, builds the plugin and makes a texture atlas of MESH in pymeshlab.
+# Sets everything up, builds the plugin and makes a texture atlas and a sewing pattern of MESH in pymeshlab.
 # usage: bash scripts/demo.sh [MESH]        (default: meshes/plush.ply) -> out/NAME/
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

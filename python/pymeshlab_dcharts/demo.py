@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes a texture atlas of a mesh and writes everything there is to see of it.
+"""Makes a texture atlas and a sewing pattern of a mesh and writes everything there is to see of them.
 
 usage: python -m pymeshlab_dcharts.demo MESH OUTDIR        (needs numpy and Pillow)
 """
@@ -22,6 +22,9 @@ from .pictures import Model, atlas_picture, charts_picture, checker_image
 
 FILTER = "dcharts_texture_atlas"
 TEXTURE = "checker.png"
+PATTERN_FILTER = "dcharts_pattern"
+PATTERN = {"material": "Fabric", "size": 300.0, "page": "A4"}  # a toy of 30 cm; the PDF is for an ordinary printer
+PATTERN_FILES = ("pattern.svg", "pattern.pdf", "pattern.dxf")
 
 
 class Stopwatch:
@@ -81,6 +84,15 @@ def use_texture(material_file, texture):
     material_file.write_text(re.sub(r"(?m)^(newmtl .*)$", rf"\1\nmap_Kd {texture}", text), encoding="utf-8")
 
 
+def write_patterns(mesh_path, folder):
+    """Writes the pattern's files and returns the filter's figures."""
+    for name in PATTERN_FILES:
+        ms = pymeshlab.MeshSet()
+        ms.load_new_mesh(str(mesh_path))
+        figures = getattr(ms, PATTERN_FILTER)(**PATTERN, output_file=str(folder / name))
+    return figures
+
+
 def summary(name, figures):
     parts = [f"{figures['charts']} charts"]
     for key, text in (("l2_stretch", "L2 stretch {:.4f}"), ("linf_stretch", "largest {:.3f}"), ("seam_length", "seams {:.2f}"),
@@ -122,6 +134,9 @@ def run(mesh_path, folder):
     atlas_picture(model, title).save(folder / "atlas.png")
     watch.step("pictures")
 
+    pattern_figures = write_patterns(mesh_path, folder)
+    watch.step("patterns")
+
     stages = {key[len("seconds_") :]: value for key, value in figures.items() if key.startswith("seconds_")}
     report = {
         "mesh": mesh_facts(ms, mesh_path),
@@ -129,6 +144,11 @@ def run(mesh_path, folder):
         "parameters": default_parameters(FILTER),
         "figures": {key: plain(value) for key, value in figures.items() if not key.startswith("seconds_")},
         "seconds_per_stage": stages,
+        "pattern": {
+            "filter": PATTERN_FILTER,
+            "parameters": {**default_parameters(PATTERN_FILTER), **PATTERN},
+            "figures": {key: plain(value) for key, value in pattern_figures.items() if not key.startswith("seconds_")},
+        },
         "seconds": watch.seconds,
         "versions": versions(),
     }

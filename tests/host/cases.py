@@ -14,6 +14,10 @@ _STRAIGHTEN = ('straighten_by', 'max_fitting_error')
 _MERGE = ('target_charts', 'max_stretch', 'merge_by', 'seam_weight', 'merge_threshold')
 _CUT = ('target_charts', 'max_stretch', 'dart_by', 'dart_fitting_error', 'max_dart_percent', 'cut_to_disk',
         'seam_layer')
+_PATTERN = ('target_charts', 'max_stretch', 'chart_count', 'max_fitting_error', 'fitting_weight', 'compactness_weight',
+            'straightness_weight', 'merge_by', 'seam_weight', 'merge_threshold', 'dart_by', 'dart_fitting_error',
+            'max_dart_percent', 'material', 'size', 'units', 'seam_allowance', 'tab_width', 'simplify_tolerance',
+            'fold_angle', 'merge_congruent', 'print_texture', 'page', 'oversize', 'output_file')
 _PARAMETERIZE = ('target_charts', 'max_stretch', 'method', 'texture_size', 'padding', 'rotate', 'density_by')
 
 # display name -> (name in Python, parameters)
@@ -26,6 +30,7 @@ FILTERS = {
     'D-Charts: Parameterize': ('dcharts_parameterize', _PARAMETERIZE),
     'D-Charts: Texture Atlas': ('dcharts_texture_atlas',
                                 tuple(dict.fromkeys(_SEGMENT + _FILL + _STRAIGHTEN + _MERGE + _CUT + _PARAMETERIZE))),
+    'D-Charts: Pattern': ('dcharts_pattern', _PATTERN),
     'D-Charts: Measure': ('dcharts_measure', ()),
 }
 STAGES = tuple(python for python, _ in list(FILTERS.values())[:6])
@@ -51,10 +56,18 @@ OUT_OF_RANGE = {
     'max_dart_percent': (-1.0, 1001.0),
     'texture_size': (15, 65537),
     'padding': (-1, 257),  # at most a quarter of the texture size, which is 1024
+    'size': (-1.0, 100001.0),
+    'seam_allowance': (-1.0, 101.0),
+    'tab_width': (-1.0, 101.0),
+    'simplify_tolerance': (-0.1, 101.0),
+    'fold_angle': (-1.0, 181.0),
 }
 
 # every value of these is in range
-BOOLEANS = ('cut_to_disk', 'seam_layer', 'rotate')
+BOOLEANS = ('cut_to_disk', 'seam_layer', 'rotate', 'merge_congruent', 'print_texture')
+
+# files to write
+FILES = ('output_file',)
 
 # parameter -> its choices, the default first
 CHOICES = {
@@ -63,6 +76,10 @@ CHOICES = {
     'dart_by': ('Measured Stretch', 'Fitting Error'),
     'method': ('Stretch-minimizing', 'Conformal (ABF++)'),
     'density_by': ('Uniform', 'Vertex Quality'),
+    'material': ('Fabric', 'Paper'),
+    'units': ('mm', 'inch'),
+    'page': ('Single sheet', 'A4', 'A3', 'A0', 'Letter'),
+    'oversize': ('Tile', 'Split Piece'),
 }
 
 _TETRAHEDRON = ('0 0 0', '1 0 0', '0 1 0', '0 0 1')

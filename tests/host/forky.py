@@ -8,9 +8,10 @@ import subprocess
 from hosts import CACHE, NotHere
 
 ROOT_FOLDER = CACHE / 'forky-meshlab'
-# MeshLab, and what its plugins need but its package does not ask for.
-PACKAGES = ('meshlab', 'libgomp1', 'libmuparser2v5', 'libqhull-r8.0', 'lib3ds-1-3', 'libopenctm1')
+# MeshLab, what its plugins need but its package does not ask for, and what ours needs.
+PACKAGES = ('meshlab', 'libgomp1', 'libmuparser2v5', 'libqhull-r8.0', 'lib3ds-1-3', 'libopenctm1', 'libhpdf-2.3.0')
 SECONDS = 240  # for each of the two steps
+LAST_LIBRARY = pathlib.Path('usr/lib/x86_64-linux-gnu/libhpdf-2.3.0.so')  # of the last package
 PLUGINS = pathlib.Path('usr/lib/x86_64-linux-gnu/meshlab/plugins')
 
 
@@ -45,9 +46,18 @@ def inside(root, *command):
             'LD_LIBRARY_PATH=/usr/lib/x86_64-linux-gnu/meshlab', *map(str, command)]
 
 
+def _install(root):
+    shutil.copy('/etc/resolv.conf', root / 'etc' / 'resolv.conf')
+    install = 'apt-get -q -o Acquire::Check-Valid-Until=false update && apt-get -q -y install ' \
+              '--no-install-recommends ' + ' '.join(PACKAGES) + ' && apt-get clean'
+    _run('installing MeshLab 2025.07', inside(root, 'env', 'DEBIAN_FRONTEND=noninteractive', 'sh', '-c', install))
+
+
 def root_folder():
     """The folder, made when it is not there. Raises NotHere with the reason."""
     if (ROOT_FOLDER / PLUGINS).exists():
+        if not (ROOT_FOLDER / LAST_LIBRARY).exists():  # made when fewer packages were needed
+            _install(ROOT_FOLDER)
         return ROOT_FOLDER
     if os.geteuid() != 0:
         raise NotHere('only root can make a folder with Debian forky for MeshLab 2025.07')
@@ -60,11 +70,8 @@ def root_folder():
     # bookworm's debootstrap does not know forky; sid's way of doing it fits.
     _run('debootstrap of forky', ['debootstrap', '--variant=minbase', 'forky', str(new), mirror,
                                   '/usr/share/debootstrap/scripts/sid'])
-    shutil.copy('/etc/resolv.conf', new / 'etc' / 'resolv.conf')
     (new / 'usr/sbin/policy-rc.d').write_text('#!/bin/sh\nexit 101\n')  # start no services
     (new / 'usr/sbin/policy-rc.d').chmod(0o755)
-    install = 'apt-get -q -o Acquire::Check-Valid-Until=false update && apt-get -q -y install ' \
-              '--no-install-recommends ' + ' '.join(PACKAGES) + ' && apt-get clean'
-    _run('installing MeshLab 2025.07', inside(new, 'env', 'DEBIAN_FRONTEND=noninteractive', 'sh', '-c', install))
+    _install(new)
     new.rename(ROOT_FOLDER)
     return ROOT_FOLDER

@@ -4,7 +4,7 @@ import xml.etree.ElementTree as ElementTree
 
 from cases import FILTERS
 
-_READ = {'RichInt': int, 'RichFloat': float, 'RichBool': lambda text: text == 'true', 'RichEnum': int}
+_READ = {'RichInt': int, 'RichFloat': float, 'RichBool': lambda text: text == 'true', 'RichEnum': int, 'RichSaveFile': str}
 
 
 def read_script(path):

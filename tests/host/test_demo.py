@@ -8,6 +8,7 @@ import pymeshlab
 import pytest
 from PIL import Image
 
+from pattern_files import dxf_pieces, svg_pieces
 from pymeshlab_dcharts import demo
 
 MESH = pathlib.Path(__file__).parents[2] / "meshes" / "cylinder.ply"
@@ -59,6 +60,12 @@ def test_segmented_mesh_has_chart_ids_and_their_colours(folder):
     assert sorted(set(ids)) == list(range(count))
     pairs = {(i, tuple(color)) for i, color in zip(ids, mesh.face_color_matrix())}
     assert len(pairs) == count
+
+
+def test_patterns_are_there(folder):
+    assert (folder / "pattern.pdf").read_bytes().startswith(b"%PDF-")
+    assert len(svg_pieces(folder / "pattern.svg")) == len(dxf_pieces(folder / "pattern.dxf")) >= 1
+    assert json.loads((folder / "report.json").read_text())["pattern"]["parameters"]["size"] == 300
 
 
 def test_pictures_are_not_empty(folder):

@@ -20,7 +20,7 @@ REFUSED = 255  # meshlabserver's exit code for a filter that says no; 134 would 
 
 def example_of(name):
     """The shipped script that has this filter."""
-    return EXAMPLES / ('texture_atlas.mlx' if name.endswith('Texture Atlas') else 'stages.mlx')
+    return EXAMPLES / {'D-Charts: Texture Atlas': 'texture_atlas.mlx', 'D-Charts: Pattern': 'pattern.mlx'}.get(name, 'stages.mlx')
 
 
 def one_filter(folder, name, **changes):
@@ -123,3 +123,24 @@ def test_out_of_range(server, tmp_path, plush, parameter):
     run, out = server(one_filter(tmp_path, name, **{parameter: OUT_OF_RANGE[parameter][0]}), plush)
     refused(run, out)
     assert parameter in run.stdout
+
+
+def test_pattern_is_that_of_pymeshlab(server, tmp_path, plush):
+    """The shipped script writes its PDF, and an SVG has the same bytes as in pymeshlab; the mesh is not changed."""
+    run, out = server(EXAMPLES / 'pattern.mlx', plush)
+    assert run.returncode == 0 and out is not None, run.stdout[-2000:]
+    assert (tmp_path / 'pattern.pdf').read_bytes().startswith(b'%PDF-')
+    run, out = server(one_filter(tmp_path, 'D-Charts: Pattern', size=200, output_file='there.svg'), plush)
+    assert run.returncode == 0 and out is not None, run.stdout[-2000:]
+    here = pymeshlab.MeshSet()
+    here.load_new_mesh(str(plush))
+    (tmp_path / 'here').mkdir()
+    values = dict(read_script(EXAMPLES / 'pattern.mlx'))['dcharts_pattern']
+    here.apply_filter('dcharts_pattern', **{**values, 'size': 200.0, 'output_file': str(tmp_path / 'here' / 'there.svg')})
+    assert (tmp_path / 'there.svg').read_bytes() == (tmp_path / 'here' / 'there.svg').read_bytes()
+
+
+@pytest.mark.parametrize('file', ['pattern.txt', 'pattern', 'no_such_folder/pattern.svg'])
+def test_pattern_file_that_cannot_be(server, tmp_path, plush, file):
+    refused(*server(one_filter(tmp_path, 'D-Charts: Pattern', output_file=file), plush))
+    assert not (tmp_path / file).exists()

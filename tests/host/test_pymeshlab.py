@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from atlas_check import EVALUATOR, SHARED, evaluate, flaws
-from cases import (BOOLEANS, CHOICES, FILTERS, OUT_OF_RANGE, PYTHON_NAMES, REFUSED_MESHES, STAGES, is_sentence, shipped_meshes)
+from cases import (BOOLEANS, CHOICES, FILES, FILTERS, OUT_OF_RANGE, PYTHON_NAMES, REFUSED_MESHES, STAGES, is_sentence, shipped_meshes)
 
 pymeshlab = pytest.importorskip('pymeshlab')
 pytest.importorskip('pymeshlab_dcharts', reason='the package pymeshlab_dcharts is not installed')
@@ -79,7 +79,7 @@ def test_parameters(name):
 
 def test_every_number_has_bad_values():
     for parameters in BY_PYTHON_NAME.values():
-        assert set(parameters) <= set(OUT_OF_RANGE) | set(BOOLEANS) | set(CHOICES)
+        assert set(parameters) <= set(OUT_OF_RANGE) | set(BOOLEANS) | set(CHOICES) | set(FILES)
 
 
 @pytest.mark.parametrize('mesh', MESHES, ids=lambda path: path.stem)
@@ -216,7 +216,7 @@ def test_out_of_range(painted, name, parameter, value):
     assert parameter in refusal(painted, name, **{parameter: value})
 
 
-@pytest.mark.parametrize('parameter', CHOICES)
+@pytest.mark.parametrize('parameter', [p for p in CHOICES if p in BY_PYTHON_NAME[ATLAS]])
 def test_choices(parameter, plush):
     """Each choice has its own result, the first is the default, any other is refused."""
     results = []
@@ -335,7 +335,8 @@ def test_density_follows_vertex_quality(plush):
 @pytest.mark.parametrize('parameter', [p for p, values in OUT_OF_RANGE.items() if isinstance(values[0], float)])
 @pytest.mark.parametrize('value', [float('nan'), float('inf')])
 def test_not_a_number(painted, parameter, value):
-    assert parameter in refusal(painted, ATLAS, **{parameter: value})
+    name = next(name for name, parameters in BY_PYTHON_NAME.items() if parameter in parameters)
+    assert parameter in refusal(painted, name, **{parameter: value})
 
 
 def test_work_goes_on_after_a_refusal(plush):

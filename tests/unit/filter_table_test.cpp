@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <regex>
@@ -17,8 +18,9 @@ namespace {
 
 // The number of fields of an aggregate: the largest number of initializers that it takes.
 struct Anything {
-  template <class T>
+  template <class T, std::enable_if_t<std::is_arithmetic_v<T> || std::is_enum_v<T>, int> = 0>
   operator T() const;
+  operator std::string() const;
 };
 template <class T, class Indices, class = void>
 struct TakesInitializers : std::false_type {};
@@ -51,6 +53,7 @@ TEST(FilterTable, HoldsEveryFieldOfParamsOnce) {
 
 TEST(FilterTable, DefaultsAreInRange) {
   for (const ParamSpec& spec : AllParams()) {
+    if (IsFile(spec)) continue;
     const double value = ValueOf(spec, Params());
     if (spec.min_exclusive)
       EXPECT_GT(value, spec.min) << spec.name;
@@ -65,7 +68,7 @@ TEST(FilterTable, EnumsHaveAChoiceForEachValueInTheirRange) {
   for (const ParamSpec& spec : AllParams()) {
     const bool is_enum = !std::holds_alternative<int Params::*>(spec.field) &&
                          !std::holds_alternative<double Params::*>(spec.field) &&
-                         !std::holds_alternative<bool Params::*>(spec.field);
+                         !std::holds_alternative<bool Params::*>(spec.field) && !IsFile(spec);
     EXPECT_EQ(IsEnum(spec), is_enum) << spec.name;
     if (!IsEnum(spec)) continue;
     EXPECT_GE(spec.choices.size(), 2u) << spec.name;
@@ -77,6 +80,7 @@ TEST(FilterTable, EnumsHaveAChoiceForEachValueInTheirRange) {
 
 TEST(FilterTable, ValuesAreSetAsTheyAreRead) {
   for (const ParamSpec& spec : AllParams()) {
+    if (IsFile(spec)) continue;
     Params params;
     for (double value : {1.0, 0.0}) {
       SetValue(spec, value, params);
@@ -127,7 +131,7 @@ TEST(FilterTable, TooltipsHaveTextRangeAndDefault) {
 
 TEST(FilterTable, TooltipsSayWhatZeroMeans) {
   for (const ParamSpec& spec : AllParams()) {
-    if (std::holds_alternative<bool Params::*>(spec.field) || IsEnum(spec) || spec.min > 0 ||
+    if (std::holds_alternative<bool Params::*>(spec.field) || IsEnum(spec) || IsFile(spec) || spec.min > 0 ||
         spec.min_exclusive)
       continue;
     EXPECT_TRUE(std::regex_search(spec.tooltip, std::regex("(^|[ ;.])0 "))) << spec.name;
@@ -150,6 +154,24 @@ TEST(FilterTable, TextureAtlasHasTheParametersOfItsStages) {
   EXPECT_EQ(of_atlas.size(), of_stages.size());
 }
 
+TEST(FilterTable, EveryFilterButMeasureHasAParameterAndEveryParameterAFilter) {
+  std::set<std::string> offered;
+  for (const FilterSpec& filter : AllFilters()) {
+    EXPECT_EQ(filter.params.empty(), filter.id == FilterId::kMeasure) << filter.name;
+    for (const ParamSpec* param : filter.params) offered.insert(param->name);
+  }
+  EXPECT_EQ(offered.size(), AllParams().size());
+}
+
+// MeshLab 2020.09 has no place to fold parameters away: no dialog may be taller than that of Texture Atlas.
+TEST(FilterTable, PatternFitsTheScreen) {
+  const FilterSpec& pattern = GetFilter(FilterId::kPattern);
+  EXPECT_LE(pattern.params.size(), NamesOf(FilterId::kTextureAtlas).size());
+  const auto shown = std::count_if(pattern.params.begin(), pattern.params.end(),
+                                   [&](const ParamSpec* param) { return !IsAdvanced(pattern, *param); });
+  EXPECT_LE(shown, 14);
+}
+
 TEST(FilterTable, MeasureHasNoParametersAndWritesNothing) {
   EXPECT_TRUE(GetFilter(FilterId::kMeasure).params.empty());
   EXPECT_EQ(GetFilter(FilterId::kMeasure).writes, unsigned{kWritesNothing});
@@ -165,6 +187,7 @@ TEST(FilterTable, RangesReadAsAPersonWritesThem) {
   EXPECT_EQ(range("max_fitting_error"), "above 0 and at most 4");
   EXPECT_EQ(range("reassigned_percent"), "between 0 and 100");
   EXPECT_EQ(range("rotate"), "true or false");
+  EXPECT_EQ(range("output_file"), "a name that ends in .svg, .pdf or .dxf, or empty");
   EXPECT_EQ(range("method"), "'Stretch-minimizing' or 'Conformal (ABF++)'");
 }
 

@@ -64,7 +64,7 @@ TEST(Runner, DefaultsAreAccepted) {
 TEST(Runner, EveryParameterOutOfRangeIsRefusedWithItsNameAndRange) {
   for (const FilterSpec& filter : AllFilters())
     for (const ParamSpec* spec : filter.params) {
-      if (std::holds_alternative<bool Params::*>(spec->field)) continue;
+      if (std::holds_alternative<bool Params::*>(spec->field) || IsFile(*spec)) continue;
       for (bool above : {false, true}) {
         const double value = Outside(*spec, above);
         if (!std::isfinite(value)) continue;
@@ -89,7 +89,9 @@ TEST(Runner, RefusesNumbersThatAreNone) {
   for (const ParamSpec& spec : AllParams()) {
     if (!std::holds_alternative<double Params::*>(spec.field)) continue;
     for (double value : {kNan, kInfinity, -kInfinity})
-      EXPECT_NE(CheckSentence(FilterId::kTextureAtlas, With(spec, value)), "") << spec.name << " = " << value;
+      EXPECT_TRUE(CheckSentence(FilterId::kTextureAtlas, With(spec, value)) != "" ||
+                  CheckSentence(FilterId::kPattern, With(spec, value)) != "")
+          << spec.name << " = " << value;
   }
 }
 
@@ -101,6 +103,20 @@ TEST(Runner, PaddingIsAtMostAQuarterOfTheTexture) {
   params.padding = 17;
   EXPECT_EQ(CheckSentence(FilterId::kParameterize, params),
             "padding must be at most a quarter of texture_size, here 16; you gave 17.");
+}
+
+TEST(Runner, AFileToWriteMustHaveAKnownEndingAndAFolder) {
+  Params params;
+  params.output_file = "pattern.txt";
+  EXPECT_EQ(CheckSentence(FilterId::kPattern, params),
+            "output_file must end in .svg, .pdf or .dxf; you gave 'pattern.txt'.");
+  params.output_file = "no such folder/pattern.svg";
+  EXPECT_EQ(CheckSentence(FilterId::kPattern, params),
+            "output_file is in a folder that does not exist: 'no such folder'.");
+  for (const char* name : {"", "pattern.svg", "pattern.PDF", "my.pattern.dxf"}) {
+    params.output_file = name;
+    EXPECT_EQ(CheckSentence(FilterId::kPattern, params), "") << name;
+  }
 }
 
 TEST(Runner, AFilterIgnoresParametersItDoesNotHave) {

@@ -78,7 +78,7 @@ Views ChooseViews(const Pattern& pattern, const SurfaceData& mesh) {
 class NumberedPicture {
  public:
   NumberedPicture(ModelView view, const Point2& at, double side, const Point2& page, Group& group)
-      : view_(std::move(view)), space_(page), group_(group), pixel_(side / kPixels) {
+      : view_(std::move(view)), space_({0, 0}, page), group_(group), pixel_(side / kPixels) {
     view_.picture.at = at;
     view_.picture.size = {side, side};
   }

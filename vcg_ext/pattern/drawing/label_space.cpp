@@ -97,7 +97,7 @@ void LabelSpace::AddBox(const Box& box) { Add(CornersOf(box), -1); }
 bool LabelSpace::IsFree(const Box& box) const {
   const std::vector<Point2> corners = CornersOf(box);
   for (const Point2& p : corners)
-    if (p.minCoeff() < 0 || p.x() > size_.x() || p.y() > size_.y()) return false;
+    if ((p - low_).minCoeff() < 0 || (high_ - p).minCoeff() < 0) return false;
   return !AnyNear(corners, [&](long long key) {
     const auto cell = cells_.find(key);
     return cell != cells_.end() && std::any_of(cell->second.begin(), cell->second.end(),

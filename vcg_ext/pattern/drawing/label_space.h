@@ -12,13 +12,14 @@ namespace dcharts {
 /// What is on a sheet already, to find room for more: lines and boxes. Touching counts as overlapping.
 class LabelSpace {
  public:
-  explicit LabelSpace(const Point2& sheet_size) : size_(sheet_size) {}
+  /// Labels are to stay within this rectangle.
+  LabelSpace(const Point2& low, const Point2& high) : low_(low), high_(high) {}
 
   /// `owner`: 0 or more, what a leader of the same owner may cross; -1: no leader may.
   void AddLine(const Polyline& points, bool closed, int owner);
   void AddBox(const Box& box);
 
-  /// Nothing crosses or lies in the box, and it is on the sheet.
+  /// Nothing crosses or lies in the box, and it is within the rectangle.
   bool IsFree(const Box& box) const;
 
   /// The segment crosses no box, and no line but those of `owner` (-1: no line at all).
@@ -34,7 +35,7 @@ class LabelSpace {
   template <class Visit>
   bool AnyNear(const std::vector<Point2>& corners, Visit visit) const;
 
-  Point2 size_;
+  Point2 low_, high_;
   std::vector<Item> items_;
   std::unordered_map<long long, std::vector<int>>
       cells_;  ///< items by the square of the sheet they may be in

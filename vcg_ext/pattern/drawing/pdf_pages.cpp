@@ -35,10 +35,10 @@ class PageMaker {
     const int first_piece_page = static_cast<int>(pages_.size()) + MapPageCount();
     AddMaps(first_piece_page + pattern_.page_count + 1);
     count_ = first_piece_page + pattern_.page_count;
-    for (const Tiling& tiling : tilings_) count_ += tiling.Count();
+    for (const Tiling& tiling : tilings_) count_ += static_cast<int>(tiling.used.size());
     for (int p = 0; p < pattern_.page_count; ++p) AddPieces(p);
     for (const Tiling& tiling : tilings_)
-      for (int i = 0; i < tiling.Count(); ++i) AddTile(tiling, i);
+      for (int i : tiling.used) AddTile(tiling, i);
     return std::move(pages_);
   }
 
@@ -65,7 +65,7 @@ class PageMaker {
         const Point2 corner(pattern_.page_margin + k % MapColumns() * kMap,
                             top - 10 - (k / MapColumns() + 1) * kMap);
         AddTileMap(group, tilings_[i], page_number, corner, kMap - 5);
-        page_number += tilings_[i].Count();
+        page_number += static_cast<int>(tilings_[i].used.size());
       }
       pages_.push_back(PageOf(std::move(drawing)));
     }
@@ -92,7 +92,7 @@ class PageMaker {
       placements.push_back(piece.on_page);
     }
     Drawing drawing{draft_.title, pattern_.page_size, {}};
-    drawing.groups = PieceGroups(draft_, pieces, placements, pattern_.page_size);
+    drawing.groups = PieceGroups(draft_, pieces, placements, pattern_.page_margin, pattern_.page_size);
     drawing.groups.push_back(Footer(draft_.title));
     pages_.push_back(PageOf(std::move(drawing)));
   }

@@ -191,12 +191,17 @@ class Labeller {
       if (tried == kShortest) break;
     }
     constexpr double kOutside = 8;
-    if (const std::optional<Box> box = LeadTo({home_, {kOutside / 2, kHalfWidth}, angle}, home_, false)) {
-      PutGrain(box->center, along, across, kOutside);
-      space_.AddBox(*box);
-    } else {
-      unplaced_.push_back("grain arrow");
+    constexpr std::size_t kTargets = 8;
+    const Polyline& outline = placed_.net[0];
+    for (std::size_t k = 0; k < kTargets; ++k) {
+      const Point2& target = outline[k * outline.size() / kTargets];
+      if (const auto box = LeadTo({target, {kOutside / 2, kHalfWidth}, angle}, target, false)) {
+        PutGrain(box->center, along, across, kOutside);
+        space_.AddBox(*box);
+        return;
+      }
     }
+    unplaced_.push_back("grain arrow");
   }
 
   void PutGrain(const Point2& center, const Point2& along, const Point2& across, double length) {

@@ -13,11 +13,13 @@
 namespace dcharts {
 
 std::vector<Group> PieceGroups(Draft& draft, const std::vector<const Piece*>& pieces,
-                               const std::vector<PiecePlacement>& placements, const Point2& sheet_size) {
+                               const std::vector<PiecePlacement>& placements, double margin,
+                               const Point2& sheet_size) {
   const Pattern& pattern = draft.pattern;
   std::vector<PlacedPiece> placed;
   std::vector<Group> groups;
-  LabelSpace space(sheet_size);
+  const Point2 corner(margin, margin);
+  LabelSpace space(corner, sheet_size - corner);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     placed.push_back(Place(pattern, *pieces[i], placements[i]));
     const std::string number = std::to_string(pieces[i]->id + 1);
@@ -50,7 +52,7 @@ Drawing SheetOf(Draft& draft) {
   Drawing drawing;
   drawing.title = draft.title;
   drawing.size = {std::max(pattern.sheet_size.x(), kNarrowest), pattern.sheet_size.y() + kStrip};
-  drawing.groups = PieceGroups(draft, pieces, placements, {drawing.size.x(), pattern.sheet_size.y()});
+  drawing.groups = PieceGroups(draft, pieces, placements, 0, {drawing.size.x(), pattern.sheet_size.y()});
   Group marks{"sheet", "Sheet"};
   const double bottom = pattern.sheet_size.y();
   AddText(marks, {kLeft, bottom + 17}, draft.title, 4.5);

@@ -10,9 +10,10 @@
 namespace dcharts {
 
 /// Draws pieces with all their notation: one group for each. `placements`: where they lie on a sheet of this
-/// size.
+/// size; labels keep out of its margin, mm.
 std::vector<Group> PieceGroups(Draft& draft, const std::vector<const Piece*>& pieces,
-                               const std::vector<PiecePlacement>& placements, const Point2& sheet_size);
+                               const std::vector<PiecePlacement>& placements, double margin,
+                               const Point2& sheet_size);
 
 /// All drawn pieces on one sheet, with a strip above them that has title, scale bar and legend. The pieces
 /// have the coordinates of Piece::on_sheet.

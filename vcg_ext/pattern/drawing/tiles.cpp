@@ -4,16 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pattern/drawing/label_space.h"
 #include "pattern/drawing/placed_piece.h"
 #include "pattern/drawing/sheet.h"
 #include "pattern/drawing/sheet_marks.h"
+#include "pattern/drawing/text_box.h"
 
 namespace dcharts {
 
 namespace {
 
 constexpr double kOverlap = 15;        // mm
-constexpr double kAround = 12;         // mm around a piece, for labels that have no room in it
+constexpr double kAround = 3;          // mm, least room around a piece
 constexpr double kRegistration = 3.5;  // mm, half the size of a mark
 
 int TilesAlong(double length, double tile) {
@@ -26,6 +28,19 @@ void AddRegistration(Group& group, const Point2& at) {
   group.lines.push_back({Mark::kSheet, {at - x, at + x}});
   group.lines.push_back({Mark::kSheet, {at - y, at + y}});
   group.lines.push_back({Mark::kSheet, {at - x, at - y, at + x, at + y}, true});
+}
+
+// A line crosses the tile, or a text is on it.
+bool HasSomething(const Group& group, const Point2& low, const Point2& size) {
+  const std::vector<Point2> tile = {low, low + Point2(size.x(), 0), low + size, low + Point2(0, size.y())};
+  for (const Line& line : group.lines)
+    for (std::size_t i = 0; i + (line.closed ? 0 : 1) < line.points.size(); ++i)
+      if (Overlap(tile, {line.points[i], line.points[(i + 1) % line.points.size()]})) return true;
+  for (const Text& text : group.texts) {
+    const auto corners = BoxOf(text).Corners();
+    if (Overlap(tile, {corners.begin(), corners.end()})) return true;
+  }
+  return !group.pictures.empty();
 }
 
 Group Registrations(const Tiling& tiling) {
@@ -60,16 +75,20 @@ std::vector<Tiling> TilingsOf(Draft& draft) {
     if (!piece.drawn || piece.on_page.page >= 0) continue;
     PiecePlacement placement{0, piece.on_page.angle, {0, 0}};
     const PlacedPiece turned = Place(pattern, piece, placement);
-    placement.offset = Point2(kAround, kAround) - turned.low;
     Tiling tiling;
     tiling.piece = &piece;
     tiling.tile = pattern.page_size - Point2(2, 2) * pattern.page_margin;
     tiling.step = tiling.tile - Point2(kOverlap, kOverlap);
     auto drawing = std::make_shared<Drawing>();
-    drawing->size = turned.high - turned.low + Point2(2, 2) * kAround;
-    tiling.columns = TilesAlong(drawing->size.x(), tiling.tile.x());
-    tiling.rows = TilesAlong(drawing->size.y(), tiling.tile.y());
-    drawing->groups = PieceGroups(draft, {&piece}, {placement}, drawing->size);
+    const Point2 least = turned.high - turned.low + Point2(2, 2) * kAround;
+    tiling.columns = TilesAlong(least.x(), tiling.tile.x());
+    tiling.rows = TilesAlong(least.y(), tiling.tile.y());
+    drawing->size =
+        tiling.tile + Point2((tiling.columns - 1) * tiling.step.x(), (tiling.rows - 1) * tiling.step.y());
+    placement.offset = (drawing->size - turned.low - turned.high) / 2;
+    drawing->groups = PieceGroups(draft, {&piece}, {placement}, 0, drawing->size);
+    for (int i = 0; i < tiling.columns * tiling.rows; ++i)
+      if (HasSomething(drawing->groups[0], tiling.CornerOf(i), tiling.tile)) tiling.used.push_back(i);
     drawing->groups.push_back(Registrations(tiling));
     tiling.outline = Place(pattern, piece, placement).cut.at(0);
     tiling.drawing = drawing;
@@ -84,21 +103,21 @@ PageView ViewOfTile(const Tiling& tiling, int index, double margin) {
 }
 
 void AddTileMap(Group& group, const Tiling& tiling, int first_page, const Point2& corner, double side) {
-  const Point2 size =
-      tiling.CornerOf(tiling.columns - 1) + tiling.tile;  // of all tiles: the upper right one ends it
+  const Point2 size = tiling.drawing->size;
   const double scale = (side - 8) / std::max(size.x(), size.y());
   const auto placed = [&](const Point2& p) { return Point2(corner + scale * p); };
   AddText(group, corner + Point2(0, side - 5), tiling.piece->name, 3);
   Polyline outline;
   for (const Point2& p : tiling.outline) outline.push_back(placed(p));
   group.lines.push_back({Mark::kCut, outline, true});
-  for (int i = 0; i < tiling.Count(); ++i) {
+  for (std::size_t k = 0; k < tiling.used.size(); ++k) {
+    const int i = tiling.used[k];
     const Point2 low = tiling.CornerOf(i), high = low + tiling.tile;
     group.lines.push_back(
         {Mark::kSheet,
          {placed(low), placed({high.x(), low.y()}), placed(high), placed({low.x(), high.y()})},
          true});
-    const std::string number = std::to_string(first_page + i);
+    const std::string number = std::to_string(first_page + static_cast<int>(k));
     const double room = 0.3 * scale * tiling.tile.minCoeff();
     AddText(group, placed(low) + Point2(0.15, 0.15) * scale * tiling.tile.minCoeff() + Point2(0.5, 0.5),
             number, std::clamp(room, 1.5, 5.0));

@@ -17,11 +17,11 @@ struct Tiling {
   std::shared_ptr<const Drawing> drawing;  ///< the whole piece, with registration marks
   Polyline outline;                        ///< what is cut, in the drawing's coordinates
   int columns = 0, rows = 0;
-  Point2 tile{0, 0};  ///< size of the part of a page that is drawn on, mm
-  Point2 step{0, 0};  ///< from a tile to the next one
+  std::vector<int> used;  ///< the tiles on which there is something, counted by rows from the upper left one
+  Point2 tile{0, 0};      ///< size of the part of a page that is drawn on, mm
+  Point2 step{0, 0};      ///< from a tile to the next one
 
-  int Count() const { return columns * rows; }
-  /// Lower left corner of a tile in the drawing; tiles are counted by rows from the upper left one.
+  /// Lower left corner of a tile in the drawing.
   Point2 CornerOf(int index) const;
   /// "Piece 3, row 1 of 2, column 2 of 4"
   std::string NameOf(int index) const;

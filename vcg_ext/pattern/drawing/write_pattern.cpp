@@ -30,7 +30,8 @@ Drawing WholeSheet(Draft& draft) {
   constexpr double kMargin = 10;
   Drawing sheet = SheetOf(draft);
   for (const Drawing& drawing : AssemblyPages(draft, page, kMargin)) {
-    for (const Group& group : drawing.groups) sheet.groups.push_back(Moved(group, {sheet.size.x(), 0}));
+    const Point2 corner(sheet.size.x(), std::max(0.0, sheet.size.y() - page.y()));
+    for (const Group& group : drawing.groups) sheet.groups.push_back(Moved(group, corner));
     sheet.size = {sheet.size.x() + page.x(), std::max(sheet.size.y(), page.y())};
   }
   return sheet;

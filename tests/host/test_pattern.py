@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""D-Charts: Pattern in pymeshlab: the layer, and the files as other programs read them."""
+import os
+import re
+
+import numpy as np
+import pytest
+
+from cases import ROOT, is_sentence
+from pattern_files import LEGEND, dxf_layers, dxf_pieces, length, outline_lengths, pdf_pages, svg_pieces, svg_texts
+
+pymeshlab = pytest.importorskip('pymeshlab')
+pytest.importorskip('pymeshlab_dcharts')
+
+SIZE = 240.0
+MODELS = {'plush': 'Fabric', 'cad_part': 'Paper'}
+CLOSE = 0.01  # mm
+STITCH = (0.22, 0.3)  # mm, line widths in the PDF
+
+
+def load(path):
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(path))
+    return ms
+
+
+def area(mesh):
+    corners = mesh.vertex_matrix()[mesh.face_matrix()]
+    return np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2
+
+
+@pytest.fixture(scope='module', params=MODELS)
+def made(request, tmp_path_factory):
+    """(model, material, MeshSet, folder) with the three files written."""
+    folder = tmp_path_factory.mktemp(request.param)
+    material = MODELS[request.param]
+    for ending in ('svg', 'dxf', 'pdf'):
+        ms = load(ROOT / 'meshes' / f'{request.param}.ply')
+        ms.dcharts_pattern(material=material, size=SIZE, output_file=str(folder / f'pattern.{ending}'))
+    return request.param, material, ms, folder
+
+
+def test_layer(made):
+    _, material, ms, _ = made
+    assert ms.mesh_number() == 2 and ms.current_mesh_id() == 0
+    model, pieces = ms.mesh(0), ms.mesh(1)
+    assert abs(pieces.vertex_matrix()[:, 2]).max() == 0
+    scale = SIZE / np.ptp(model.vertex_matrix(), axis=0).max()
+    assert area(pieces) == pytest.approx(area(model) * scale**2, rel=0.05 if material == 'Fabric' else 0.03)
+    # All triangles face the viewer, so pieces are not mirrored.
+    corners = pieces.vertex_matrix()[pieces.face_matrix()][:, :, :2]
+    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    assert (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] > -1e-6).all()
+
+
+def test_lengths_are_those_of_the_layer_in_every_file(made):
+    _, material, ms, folder = made
+    expected = outline_lengths(ms.mesh(1))
+    svg, dxf = svg_pieces(folder / 'pattern.svg'), dxf_pieces(folder / 'pattern.dxf')
+    assert set(svg) == set(dxf) == set(expected)
+    sewn = 'stitch' if material == 'Fabric' else 'net'
+    for piece, wanted in expected.items():
+        assert sum(length(*line) for line in svg[piece][sewn]) == pytest.approx(wanted, abs=CLOSE)
+        assert sum(length(*line) for line in dxf[piece]['14']) == pytest.approx(wanted, abs=CLOSE)
+        cut = sum(length(*line) for line in svg[piece]['cut'])
+        assert sum(length(*line) for line in dxf[piece]['1']) == pytest.approx(cut, abs=CLOSE)
+    sheet = pdf_pages(folder / 'pattern.pdf')[-1]
+    cut = sum(length(*line) for layers in svg.values() for line in layers['cut'])
+    assert sum(length(points, closed) for width, points, closed in sheet if abs(width - 0.35) < 1e-3) == pytest.approx(
+        cut + LEGEND, abs=CLOSE)
+    if material == 'Fabric':
+        assert sum(length(points, closed) for width, points, closed in sheet
+                   if min(abs(width - w) for w in STITCH) < 1e-3) == pytest.approx(
+                       sum(expected.values()) + 2 * LEGEND, abs=CLOSE)
+
+
+def test_dxf_layers(made):
+    _, material, _, folder = made
+    assert ({'1', '4', '7', '14'} if material == 'Fabric' else {'1', '8'}) <= dxf_layers(folder / 'pattern.dxf')
+
+
+def test_notation(made):
+    """Each piece has its name, quantity and side; each seam is named on both its sides, each match point twice."""
+    _, material, _, folder = made
+    texts = svg_texts(folder / 'pattern.svg')
+    pieces = {name: t for name, t in texts.items() if name.startswith('piece-')}
+    for name, of_piece in pieces.items():
+        assert f'Piece {name.removeprefix("piece-")}' in of_piece
+        assert any(re.fullmatch(r'cut \d+( \+ \d+ mirrored)?', t) for t in of_piece)
+        assert ('right side' if material == 'Fabric' else 'outside') in of_piece
+    everywhere = [t for of_piece in pieces.values() for t in of_piece]
+    seams = [t for t in everywhere if re.match(r'S\d+', t)]
+    names = [re.match(r'S\d+', t)[0] for t in seams]
+    for text, name in zip(seams, names):
+        if not text.endswith('edge'):
+            assert names.count(name) == 2, f'{text} is there {names.count(name)} times'
+    if material == 'Fabric':
+        assert sum('opening' in t for t in seams) == 2
+    numbers = [t for t in everywhere if t.isdigit()]
+    assert numbers and all(numbers.count(n) == 2 for n in numbers)
+    table = [t for name, t in texts.items() if name.startswith('assembly')]
+    assert set(names) <= {t for page in table for t in page}
+
+
+def test_seams_have_equal_sides(made):
+    """By the SVG alone: the two sides of a seam are as long as each other, but for the ease."""
+    _, material, _, folder = made
+    text = (folder / 'pattern.svg').read_text()
+    sides = {}
+    for path, seam, _ in re.findall(r'<path d="M([^"]*)"[^>]* data-seam="(\d+)" data-side="(\d+)"/>', text):
+        points = np.array(re.findall(r'-?[\d.]+', path), float).reshape(-1, 2)
+        sides.setdefault(seam, []).append(length(points))
+    assert len(sides) > 3
+    for lengths in sides.values():
+        assert max(lengths) - min(lengths) <= (0.01 if material == 'Fabric' else 0.001) * max(lengths) + CLOSE
+
+
+def page_sizes(path):
+    boxes = re.findall(rb'/MediaBox\s*\[\s*([-\d. ]+)\]', path.read_bytes())
+    return [[float(x) * 25.4 / 72 for x in box.split()[2:]] for box in boxes]
+
+
+@pytest.mark.parametrize('page, size', [('A4', (210, 297)), ('A3', (297, 420)), ('A0', (841, 1189)),
+                                        ('Letter', (215.9, 279.4))])
+def test_pages(tmp_path, plush, page, size):
+    ms, file = load(plush), tmp_path / 'pages.pdf'
+    ms.dcharts_pattern(size=SIZE, page=page, output_file=str(file))
+    sizes = page_sizes(file)
+    assert len(sizes) >= 2
+    for found in sizes:
+        assert sorted(found) == pytest.approx(sorted(size), abs=0.2)
+    # Nothing is drawn where printers do not print.
+    for strokes in pdf_pages(file):
+        for _, points, _ in strokes:
+            assert len(points) >= 2
+
+
+def test_a_large_piece_is_tiled(tmp_path, plush):
+    """Every page has a scale bar of 50 mm (its ends are ticks), and neighbouring tiles show the same marks."""
+    ms, file = load(plush), tmp_path / 'tiles.pdf'
+    ms.dcharts_pattern(size=400.0, target_charts=6, page='A4', output_file=str(file))
+    pages = pdf_pages(file)
+    diamonds = [[points for width, points, closed in strokes if closed and len(points) == 4 and length(points, True) < 25]
+                for strokes in pages]
+    tiled = [d for d in diamonds if d]
+    assert len(tiled) >= 2, 'nothing is tiled'
+    bars = [any(len(points) == 2 and abs(length(points) - 50) < 1e-3 for _, points, _ in strokes) for strokes in pages]
+    assert sum(bars) >= len(tiled)
+
+
+def test_texture_is_printed(tmp_path, plush):
+    ms, plain, colored = load(plush), tmp_path / 'plain.svg', tmp_path / 'colored.svg'
+    ms.compute_color_by_function_per_vertex(x='127 + 100 * sin(x)', y='127 + 100 * cos(y)', z='17', a='255')
+    ms.dcharts_pattern(size=SIZE, output_file=str(plain))
+    ms.dcharts_pattern(size=SIZE, print_texture=True, output_file=str(colored))
+    pieces = len(svg_pieces(plain))
+    assert colored.read_text().count('-clip-1"') == pieces  # a picture for each
+    assert plain.read_text().count('-clip-1"') == 0
+
+
+def test_inch(tmp_path, plush):
+    sizes = []
+    for values in ({'size': 254.0}, {'size': 10.0, 'units': 'inch'}):
+        ms = load(plush)
+        ms.dcharts_pattern(**values)
+        sizes.append(area(ms.mesh(1)))
+    assert sizes[0] == pytest.approx(sizes[1], rel=1e-5)
+
+
+KEPT_ALIVE = []  # see test_pymeshlab.py
+
+
+def refusal(ms, **parameters):
+    KEPT_ALIVE.append(ms)
+    with pytest.raises(pymeshlab.PyMeshLabException) as refused:
+        ms.dcharts_pattern(**parameters)
+    assert is_sentence(str(refused.value)), str(refused.value)
+    assert ms.mesh_number() == 1
+    return str(refused.value)
+
+
+@pytest.mark.parametrize('name', ['pattern.txt', 'pattern', 'svg', 'no such folder/pattern.svg'])
+def test_file_that_cannot_be(tmp_path, plush, name):
+    assert 'output_file' in refusal(load(plush), size=SIZE, output_file=str(tmp_path / name))
+    assert os.listdir(tmp_path) == []
+
+
+def test_file_that_cannot_be_written(tmp_path, plush):
+    """A folder of that name is in the way: root may write anything else. No half-written file is left."""
+    (tmp_path / 'taken.svg').mkdir()
+    assert 'taken.svg' in refusal(load(plush), size=SIZE, output_file=str(tmp_path / 'taken.svg'))
+    assert os.listdir(tmp_path) == ['taken.svg'] and os.listdir(tmp_path / 'taken.svg') == []
+
+
+def test_an_older_file_stays_when_the_pattern_is_refused(tmp_path, plush):
+    file = tmp_path / 'old.svg'
+    file.write_text('old')
+    refusal(load(plush), seam_allowance=-1.0, output_file=str(file))
+    assert file.read_text() == 'old'
