@@ -20,7 +20,7 @@ namespace {
 
 using test::TestSurface;
 
-ChartIds Straightened(const TestSurface& surface, ChartIds ids, const GraphCutOptions& options = {}) {
+ChartIds Straightened(const TestSurface& surface, ChartIds ids, const BorderCutOptions& options = {}) {
   Progress progress;
   GraphCutStraightener<SurfaceMesh>(*surface, options, progress).Run(ids);
   return ids;
@@ -61,7 +61,7 @@ TEST(StraightenGraphCut, RaggedBorderOnAPlaneBecomesTheLine) {
     return static_cast<int>(p[0] * n) < n / 2 + shift ? 0 : 1;
   });
   ASSERT_GT(BorderLength(surface, ragged), 1.5);
-  GraphCutOptions wide;
+  BorderCutOptions wide;
   wide.band = 0.2;
   EXPECT_EQ(Straightened(surface, ragged, wide),
             surface.Paint([](const auto& p) { return p[0] < 0.5 ? 0 : 1; }));
@@ -82,7 +82,7 @@ TEST(StraightenGraphCut, BorderIsFreeToMoveAlongTheBorderOfTheMesh) {
   const TestSurface surface(strip);
   const ChartIds slanted = surface.Paint([](const auto& p) { return p[0] < 0.45 + 0.6 * p[1] ? 0 : 1; });
   ASSERT_GT(BorderLength(surface, slanted), 1.2 / 6);
-  GraphCutOptions options;
+  BorderCutOptions options;
   options.band = 0.2;
   EXPECT_NEAR(BorderLength(surface, Straightened(surface, slanted, options)), 1.0 / 6, 1e-9);
 }
@@ -150,7 +150,7 @@ TEST(StraightenGraphCut, NoChartVanishesFallsApartOrGetsAnotherLoop) {
     const TestSurface surface(mesh);
     for (int trial = 0; trial < 6; ++trial) {
       const ChartIds ids = RandomCharts(surface, 2 + 5 * trial, trial % 2 ? 0.12 : 0.3, random);
-      GraphCutOptions options;
+      BorderCutOptions options;
       options.band = trial % 3 ? 0.05 : 0.5;
       options.length_weight = trial % 2 ? 0.003 : 0.1;
       const ChartIds straight = Straightened(surface, ids, options);
@@ -173,7 +173,7 @@ TEST(StraightenGraphCut, ADiskStaysADisk) {
     return r > 0.15 && r < 0.35 && !(x > 0 && std::abs(y) < 0.03) ? 1 : 0;
   });
   ASSERT_EQ(EulerOf(surface, ids, 1), 1);
-  GraphCutOptions options;
+  BorderCutOptions options;
   options.band = 0.1;
   const ChartIds straight = Straightened(surface, ids, options);
   EXPECT_EQ(EulerOf(surface, straight, 1), 1);
@@ -243,7 +243,7 @@ TEST(StraightenGraphCut, LengthWeightShortens) {
   std::mt19937 random(8);
   const TestSurface surface(shapes::Plush(40));
   const ChartIds ids = RandomCharts(surface, 12, 0.01, random);
-  GraphCutOptions options;
+  BorderCutOptions options;
   double last = 1e300;
   for (double weight : {0.0003, 0.003, 0.03}) {
     options.length_weight = weight;

@@ -14,6 +14,7 @@
 #include "common/progress.h"
 #include "surface/chart_parts.h"
 #include "surface/chart_trial.h"
+#include "surface/seam_price.h"
 
 namespace dcharts {
 
@@ -47,8 +48,6 @@ struct ChartGroups {
   }
 
   static constexpr double kNoBound = std::numeric_limits<double>::infinity();
-  /// Energy that a seam as long as the side of a square with the surface's area may cost.
-  static constexpr double kSeamPrice = 0.00225;
 
   /// The coarse chart is a little worse than the fine one.
   double CoarseBound() const {
@@ -89,6 +88,9 @@ struct ChartGroups {
     }
     return trial;
   }
+
+  /// These parts are never to be a chart.
+  void Forbid(const std::vector<int>& some) { trials[some] = {kNoBound, {}}; }
 
   /// Makes trials ahead, on all threads.
   void TryAll(const std::vector<std::vector<int>>& sets) {

@@ -53,7 +53,7 @@ class ChartParts {
 
  private:
   // Enough faces to rank merges by.
-  int CoarseFaces() const { return std::max(6000, 100 * Count()); }
+  int CoarseFaces() const { return std::max(3000, 100 * Count()); }
 
   static std::vector<int> Faces(const std::vector<int>& parts, const std::vector<std::vector<int>>& of) {
     std::vector<int> faces;

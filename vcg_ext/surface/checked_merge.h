@@ -10,9 +10,9 @@
 
 #include "common/parallel.h"
 #include "planar/overlap.h"
+#include "planar/trial_flatten.h"
 #include "surface/chart_groups.h"
 #include "surface/greedy_merge.h"
-#include "surface/known_flattenings.h"
 #include "surface/merge_improvement.h"
 #include "surface/stretch_darts.h"
 
@@ -22,17 +22,14 @@ namespace dcharts {
 template <class MeshType>
 class CheckedMerger {
  public:
-  /// Flattenings of finished charts are left in `known`.
-  CheckedMerger(ChartGroups<MeshType>& groups, KnownFlattenings& known)
-      : groups_(groups), greedy_(groups), known_(known) {}
+  explicit CheckedMerger(ChartGroups<MeshType>& groups) : groups_(groups), greedy_(groups) {}
 
   void Run() {
     const double bound = groups_.params.StretchBound();
     Merge(bound);
     if (greedy_.MayMergeMore() && bound < kNoBound) MergeWithDarts();
     if (groups_.params.target_charts > 0 && greedy_.MayMergeMore()) Merge(kNoBound);
-    const auto before = groups_.charts;
-    if (MergeImprover<MeshType>(groups_).Run(before) && !Unfit().empty()) groups_.charts = before;
+    Improve();
   }
 
  private:
@@ -47,6 +44,22 @@ class CheckedMerger {
     for (int round = 0; round < kRounds; ++round) {
       greedy_.Run();
       if (!UndoBadMerges()) return;
+    }
+  }
+
+  // What doesn't hold on the fine surface is not made again.
+  void Improve() {
+    const auto before = groups_.charts;
+    constexpr int kRounds = 4;
+    for (int round = 0; round < kRounds; ++round) {
+      if (!MergeImprover<MeshType>(groups_).Run(before)) return;
+      const std::vector<Failure> failures = Unfit();
+      if (failures.empty()) return;
+      for (const Failure& failure : failures) {
+        groups_.apart.insert(failure.overlaps.begin(), failure.overlaps.end());
+        groups_.Forbid(groups_.charts[failure.chart].parts);
+      }
+      groups_.charts = before;
     }
   }
 
@@ -66,26 +79,23 @@ class CheckedMerger {
       patches.push_back(groups_.parts.FinePatch(groups_.charts[c].parts));
     }
     constexpr size_t kMostOverlaps = 1000;
-    std::vector<Flattening> flat(patches.size());
+    std::vector<char> fits(patches.size());
     std::vector<std::vector<std::pair<int, int>>> overlaps(patches.size());
-    ParallelFor(
-        static_cast<int>(patches.size()), groups_.progress, [&](int k, const std::function<void()>& poll) {
-          double cut_length = 0;
-          patches[k] = Opened(patches[k], cut_length);
-          FlattenOptions options;
-          options.l2_bound = groups_.params.StretchBound();
-          flat[k] = Flatten(patches[k].mesh, options, poll);
-          if (flat[k].ok)
-            overlaps[k] = OverlappingPairs(OnGrid(flat[k].uv, patches[k].mesh.triangles), kMostOverlaps);
-        });
+    ParallelFor(static_cast<int>(patches.size()), groups_.progress,
+                [&](int k, const std::function<void()>& poll) {
+                  double cut_length = 0;
+                  const ChartPatch open = Opened(patches[k], cut_length);
+                  TrialOptions options;
+                  options.l2_bound = groups_.bound;
+                  const TrialFlattening flat = TrialFlatten(open.mesh, options, poll);
+                  if (flat.ok)
+                    overlaps[k] = OverlappingPairs(OnGrid(flat.uv, open.mesh.triangles), kMostOverlaps);
+                  fits[k] = flat.ok && overlaps[k].empty();
+                });
     std::vector<Failure> failures;
     for (size_t k = 0; k < unverified.size(); ++k) {
-      auto& chart = groups_.charts[unverified[k]];
-      chart.verified = flat[k].ok && flat[k].l2_stretch <= groups_.bound && overlaps[k].empty();
-      if (chart.verified) {
-        known_.Add(patches[k], std::move(flat[k]));
-        continue;
-      }
+      groups_.charts[unverified[k]].verified = fits[k];
+      if (fits[k]) continue;
       failures.push_back({unverified[k], {}});
       for (const auto& [i, j] : overlaps[k]) {
         const int p = groups_.parts.PartOf(patches[k].faces[i]),
@@ -173,7 +183,6 @@ class CheckedMerger {
 
   ChartGroups<MeshType>& groups_;
   GreedyMerger<MeshType> greedy_;
-  KnownFlattenings& known_;
 };
 
 }  // namespace dcharts

@@ -63,9 +63,9 @@ SurfaceChange ChartsWritten(const Workspace& work, const ChartIds& ids, SurfaceC
 }
 
 void MergeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, Progress& progress,
-                 ChartIds& ids, KnownFlattenings& known) {
+                 ChartIds& ids) {
   if (params.merge_by == MergeMethod::kTrialFlattening)
-    TrialMerger<SurfaceMesh>(surface, params, progress).Run(ids, known);
+    TrialMerger<SurfaceMesh>(surface, params, progress).Run(ids);
   else
     Merger<SurfaceMesh>(surface, params, progress).Run(ids);
 }
@@ -134,8 +134,7 @@ SurfaceChange Merge(const SurfaceData& mesh, const Params& params, Progress& pro
   ChartIds ids = work.ReadFilledCharts(progress);
   {
     Stage stage("merge", "Merging charts...", 0.02, 1, progress, change.report);
-    KnownFlattenings known;
-    MergeCharts(work.Surface(), params, progress, ids, known);
+    MergeCharts(work.Surface(), params, progress, ids);
   }
   return ChartsWritten(work, ids, std::move(change));
 }
@@ -192,7 +191,7 @@ void MakeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, 
   }
   {
     Stage stage("merge", "Merging charts...", 0.3125 * share, 0.875 * share, progress, report);
-    MergeCharts(surface, params, progress, ids, known);
+    MergeCharts(surface, params, progress, ids);
   }
   Stage stage("cut", "Cutting darts...", 0.875 * share, share, progress, report);
   report.darts = ChartCutter<SurfaceMesh>(surface, params, progress).Run(ids, seams, known);

@@ -14,7 +14,7 @@ template <class MeshType>
 void StraightenBorders(const SurfaceGraph<MeshType>& surface, const Params& params, Progress& progress,
                        ChartIds& ids) {
   if (params.straighten_by == StraightenMethod::kGraphCut)
-    GraphCutStraightener<MeshType>(surface, GraphCutOptions{}, progress).Run(ids);
+    GraphCutStraightener<MeshType>(surface, BorderCutOptions{}, progress).Run(ids);
   else
     ShortestPathStraightener<MeshType>(surface, params, progress).Run(ids);
 }

@@ -7,6 +7,7 @@
 #include "common/progress.h"
 #include "surface/charts.h"
 #include "surface/checked_merge.h"
+#include "surface/refine_borders.h"
 #include "surface/split_bad_charts.h"
 
 namespace dcharts {
@@ -21,17 +22,18 @@ class TrialMerger {
 
   /// Every face must have a chart. Charts that don't lie flat well by themselves are split first; then charts
   /// are merged until there are params.target_charts, or, without a target, as long as the stretch of each
-  /// stays within params.max_stretch, or, without a bound, as long as a shorter seam is worth the stretch.
-  /// Flattenings of finished charts are left in `known`.
-  void Run(ChartIds& ids, KnownFlattenings& known) {
+  /// stays within params.max_stretch, or, without a bound, as long as a shorter seam is worth the stretch. At
+  /// last the borders are moved to better places.
+  void Run(ChartIds& ids) {
     constexpr double kGood = 1.01;  // a segment that lies flat worse than this is better split
     SplitBadCharts(surface_, std::min(kGood, params_.StretchBound()), progress_, ids);
     ChartParts<MeshType> parts(surface_, ids);
     ChartGroups<MeshType> groups(parts, params_, progress_);
-    CheckedMerger<MeshType>(groups, known).Run();
+    CheckedMerger<MeshType>(groups).Run();
     const std::vector<int> owner = groups.Owners();
     for (int& id : ids) id = owner[id];
     SplitAndCompact(surface_, ids);
+    BorderRefiner<MeshType>(surface_, params_, progress_).Run(ids);
   }
 
  private:

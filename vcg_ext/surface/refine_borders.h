@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "common/parallel.h"
+#include "common/params.h"
+#include "common/progress.h"
+#include "planar/overlap.h"
+#include "planar/trial_flatten.h"
+#include "surface/border_graph_cut.h"
+#include "surface/chart_trial.h"
+#include "surface/map_pricing.h"
+#include "surface/seam_price.h"
+
+namespace dcharts {
+
+/// Moves the borders of merged charts to where seams are shorter and charts lie flatter. Charts are
+/// flattened, and graph cuts through bands around their borders weigh seam length against the stretch in
+/// those maps; as a map that is merely continued costs more than a new one, every step lowers the true cost.
+template <class MeshType>
+class BorderRefiner {
+ public:
+  BorderRefiner(const SurfaceGraph<MeshType>& surface, const Params& params, Progress& progress)
+      : surface_(surface),
+        params_(params),
+        progress_(progress),
+        no_seams_(surface.FaceCount(), 0),
+        unit_(std::sqrt(surface.TotalArea())),
+        pricing_(surface) {}
+
+  /// Every face must have a chart, and every chart be one piece; charts keep their ids. None comes to be
+  /// above params.max_stretch that was not, or to overlap itself.
+  void Run(ChartIds& ids) {
+    constexpr int kMostSweeps = 3;
+    constexpr double kLittle = 0.003;
+    const int count = ChartCount(ids);
+    std::vector<int> all(count);
+    for (int c = 0; c < count; ++c) all[c] = c;
+    State now{ids, std::vector<Chart>(count)};
+    Flatten(all, now);
+    double cost = Cost(now);
+    for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+      progress_.Update(static_cast<double>(sweep + 1) / (kMostSweeps + 1));
+      State next = Moved(now);
+      const double new_cost = Cost(next);
+      if (new_cost >= cost) return;
+      const bool go_on = cost - new_cost > kLittle * cost;
+      now = std::move(next);
+      ids = now.ids;
+      cost = new_cost;
+      if (!go_on) return;
+    }
+  }
+
+ private:
+  struct Chart {
+    bool good = false;  // flat, with no more stretch than it may have
+    ChartPatch patch{};
+    Points2 uv{};
+    double stretch = 0, cost = 0;  // without its borders
+  };
+  struct State {
+    ChartIds ids;
+    std::vector<Chart> charts;
+  };
+
+  double SeamCost(double length) const { return params_.seam_weight * kSeamPrice * length / unit_; }
+
+  double Cost(const State& state) const {
+    double cost = 0, length = 0;
+    for (const Chart& chart : state.charts) cost += chart.cost;
+    for (int h = 0; h < surface_.HalfEdgeCount(); ++h)
+      if (surface_.Opposite(h) > h && state.ids[surface_.Neighbour(h)] != state.ids[h / 3])
+        length += surface_.Length(h);
+    return cost + SeamCost(length);
+  }
+
+  State Moved(const State& now) {
+    BorderCutOptions options;
+    options.length_weight = params_.seam_weight * kSeamPrice;
+    options.max_sweeps = 1;
+    pricing_.ForgetMaps();
+    for (int c = 0; c < static_cast<int>(now.charts.size()); ++c)
+      if (now.charts[c].good) pricing_.SetMap(c, now.charts[c].patch, now.charts[c].uv);
+    ChartIds ids = now.ids;
+    BorderGraphCut<MeshType, MapPricing<MeshType>>(surface_, options, pricing_, progress_).Run(ids);
+    // Charts that came out bad get their faces back, and give back what they got, until all are good.
+    for (;;) {
+      State next{ids, now.charts};
+      Flatten(Changed(now.ids, ids), next);
+      std::vector<bool> bad(next.charts.size());
+      for (size_t c = 0; c < bad.size(); ++c) bad[c] = now.charts[c].good && !next.charts[c].good;
+      if (std::none_of(bad.begin(), bad.end(), [](bool b) { return b; })) return next;
+      for (size_t f = 0; f < ids.size(); ++f)
+        if (bad[ids[f]] || bad[now.ids[f]]) ids[f] = now.ids[f];
+    }
+  }
+
+  static std::vector<int> Changed(const ChartIds& before, const ChartIds& after) {
+    std::vector<int> charts;
+    for (size_t f = 0; f < before.size(); ++f)
+      if (before[f] != after[f]) charts.insert(charts.end(), {before[f], after[f]});
+    std::sort(charts.begin(), charts.end());
+    charts.erase(std::unique(charts.begin(), charts.end()), charts.end());
+    return charts;
+  }
+
+  void Flatten(const std::vector<int>& which, State& state) {
+    const auto faces = FacesOfCharts(state.ids);
+    PatchExtractor<MeshType> extractor(surface_, no_seams_);
+    std::vector<ChartPatch> patches;
+    for (int c : which) patches.push_back(extractor.Extract(faces[c]));
+    ParallelFor(static_cast<int>(which.size()), progress_, [&](int k, const std::function<void()>& poll) {
+      Chart& chart = state.charts[which[k]];
+      // One that needs a dart to keep within the bound may stay as it is.
+      const bool is_first = chart.patch.faces.empty();
+      const double bound = std::max(params_.StretchBound(), chart.stretch);
+      double cut_length = 0;
+      chart.patch = Opened(patches[k], cut_length);
+      TrialFlattening flat = TrialFlatten(chart.patch.mesh, {}, poll);
+      chart.good = flat.ok && (is_first || flat.l2_stretch <= bound) &&
+                   OverlappingPairs(OnGrid(flat.uv, chart.patch.mesh.triangles), 1).empty();
+      chart.cost = flat.energy * chart.patch.Area() / surface_.TotalArea() + SeamCost(cut_length);
+      chart.stretch = flat.l2_stretch;
+      chart.uv = std::move(flat.uv);
+    });
+  }
+
+  const SurfaceGraph<MeshType>& surface_;
+  const Params& params_;
+  Progress& progress_;
+  const SeamMask no_seams_;
+  const double unit_;
+  MapPricing<MeshType> pricing_;
+};
+
+}  // namespace dcharts
