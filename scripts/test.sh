@@ -38,8 +38,10 @@ sanitized_unit_tests() {
     -DDCHARTS_PLUGIN_PYMESHLAB=OFF -DDCHARTS_PLUGIN_2025=OFF -DDCHARTS_PLUGIN_2020=OFF
   build_targets unit_tests_2025
   # Tests that only run the same code again and compare would take most of the time.
-  GTEST_FILTER='-Invariance.*:Pipeline/StageByStage.*:Shapes.ShippedFilesAreUpToDate' \
-    UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 ctest --test-dir "$build" --output-on-failure -R unit_tests_2025
+  local again='Invariance.*:Threads.*:Cancelling.*:Pipeline/StageByStage.*:Stages.GiveTheSameBytes*'
+  GTEST_FILTER="-$again:Padding.*:Shapes.ShippedFilesAreUpToDate" \
+    UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 \
+    ctest --test-dir "$build" --output-on-failure -j 2 -R unit_tests_2025
 }
 
 step "format of the C++ code" check_format
