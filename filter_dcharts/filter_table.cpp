@@ -121,7 +121,9 @@ std::vector<ParamSpec> MakeParams() {
        "fitting error below this, without unit. Larger values give fewer charts with more stretch; 0.00001 "
        "keeps "
        "mechanical parts "
-       "strictly developable; 0 joins none.",
+       "strictly developable: charts that are not are halved first, unless target_charts is given or "
+       "max_stretch "
+       "is 0; 0 joins none.",
        &Params::merge_threshold, 0, 4},
       // --- cuts
       {"dart_by",
