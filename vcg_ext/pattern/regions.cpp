@@ -48,6 +48,14 @@ Polyline LoopOf(const Polygon& polygon, bool counterclockwise) {
     if (loop.empty() || loop.back() != p) loop.push_back(p);
   }
   while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
+  // Points on a straight line are left over from the parts; on the grid that is exact.
+  for (size_t k = 0; k < loop.size() && loop.size() > 3;) {
+    const size_t n = loop.size();
+    if (Orient(loop[(k + n - 1) % n], loop[k], loop[(k + 1) % n]) == 0)
+      loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(k));
+    else
+      ++k;
+  }
   if ((SignedArea(loop) > 0) != counterclockwise) std::reverse(loop.begin(), loop.end());
   // The same first corner whatever the order of insertion.
   const auto first = std::min_element(loop.begin(), loop.end(), [](const Point2& a, const Point2& b) {
