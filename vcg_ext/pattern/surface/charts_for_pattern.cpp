@@ -291,9 +291,8 @@ bool ChartsForPattern::TryJoin(int small, int other, ChartIds& ids, SeamMask& se
   const Flattening flat = dcharts::Flatten(patch.mesh, options, [&] { progress_.Poll(); });
   // A small part may stretch more than the rest: fabric gives, and a speck of paper is no worse than a gap.
   constexpr double kFabricGives = 1.02, kPaperGives = 1.001;
-  const double bound =
-      std::max(params_.StretchBound(),
-               params_.material == PatternMaterial::kFabric ? kFabricGives : kPaperGives);
+  const double bound = std::max(params_.StretchBound(),
+                                params_.material == PatternMaterial::kFabric ? kFabricGives : kPaperGives);
   if (!flat.ok || !flat.note.empty() || flat.l2_stretch > bound) return false;
   if (!OverlappingPairs(OnGrid(flat.uv, patch.mesh.triangles), 1).empty()) return false;
   seams = std::move(joined);

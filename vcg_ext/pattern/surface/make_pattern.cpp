@@ -4,13 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "pattern/pattern.h"
 #include "pattern/pattern_steps.h"
 #include "pattern/surface/charts_for_pattern.h"
+#include "pattern/surface/smooth_seams.h"
+#include "pattern/surface/symmetry.h"
+#include "surface/cut.h"
 #include "surface/make_charts.h"
-#include "surface/parameterize.h"
+#include "surface/straighten.h"
 #include "surface/workspace.h"
 
 namespace dcharts {
@@ -58,6 +63,23 @@ double LongestSide(const SurfaceGraph<SurfaceMesh>& surface) {
   return (high - low).maxCoeff();
 }
 
+// A model that is its own mirror image gets pieces in mirrored pairs.
+void MakeSymmetric(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, double done,
+                   Progress& progress, ChartIds& ids, SeamMask& seams, KnownFlattenings& known) {
+  const std::optional<MirrorPlane> mirror = FindMirrorPlane(surface);
+  if (!mirror) return;
+  progress.BeginStage("Mirroring charts...", done, done);
+  // The images of charts stretch a little more than they: they are not to be parted for that.
+  Params looser = params;
+  constexpr double kLooser = 1.3;
+  if (params.max_stretch > 0) looser.max_stretch = 1 + kLooser * (params.StretchBound() - 1);
+  if (!MirrorCharts(surface, *mirror, params.StretchBound(), progress, ids)) return;
+  StraightenBorders(surface, params, progress, ids);
+  known = KnownFlattenings();
+  ChartCutter<SurfaceMesh>(surface, looser, progress).Run(ids, seams, known);
+  progress.Log("The model is symmetric: its pieces are made in mirrored pairs.");
+}
+
 }  // namespace
 
 PatternResult MakePattern(const SurfaceData& mesh, const Params& params, Progress& progress) {
@@ -78,14 +100,24 @@ PatternResult MakePattern(const SurfaceData& mesh, const Params& params, Progres
   KnownFlattenings known;
   constexpr double kChartsShare = 0.6, kFlatShare = 0.75;
   MakeCharts(work.Surface(), material, kChartsShare, progress, ids, seams, known, result.report);
+  if (params.target_charts == 0)
+    MakeSymmetric(work.Surface(), material, kChartsShare, progress, ids, seams, known);
   progress.BeginStage("Flattening charts...", kChartsShare, kFlatShare);
-  const double to_mm = side / LongestSide(work.Surface());
-  ChartsForPattern charts(work.Surface(), material, to_mm, progress);
-  charts.Flatten(ids, seams, known);
-
   const double scale = side / model_side;
-  result.pattern = PatternOfCharts(charts.Take(ids, seams, mesh, scale, work.SourceFaces()), material,
-                                   progress, kFlatShare, 1);
+  const auto flatten = [&](const SurfaceData& data, const Workspace& ready, const KnownFlattenings& flat) {
+    const double to_mm = scale * LongestSide(data) / LongestSide(ready.Surface());
+    ChartsForPattern charts(ready.Surface(), material, to_mm, progress);
+    charts.Flatten(ids, seams, flat);
+    return charts.Take(ids, seams, data, scale, ready.SourceFaces());
+  };
+  FlatCharts charts;
+  if (params.material == PatternMaterial::kFabric) {
+    const SurfaceData smooth = WithSmoothSeams(mesh, work.Surface(), seams);
+    charts = flatten(smooth, Workspace(smooth), KnownFlattenings());
+  } else {
+    charts = flatten(mesh, work, known);
+  }
+  result.pattern = PatternOfCharts(std::move(charts), material, progress, kFlatShare, 1);
   Pattern& pattern = result.pattern;
   pattern.scale = scale;
   pattern.piece_of_face.assign(mesh.faces.size(), -1);

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pattern/surface/symmetry.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+
+#include "surface/chart_patch.h"
+#include "surface/chart_trial.h"
+
+namespace dcharts {
+namespace {
+
+using Surface = SurfaceGraph<SurfaceMesh>;
+
+/// Finds the face whose centroid is next to a point and that looks the same way.
+class FaceFinder {
+ public:
+  explicit FaceFinder(const Surface& surface) : surface_(surface) {
+    edge_ = 0;
+    for (int h = 0; h < surface.HalfEdgeCount(); ++h) edge_ += surface.Length(h) / surface.HalfEdgeCount();
+    for (int f = 0; f < surface.FaceCount(); ++f) cells_[CellOf(surface.Centroid(f))].push_back(f);
+  }
+
+  double MeanEdge() const { return edge_; }
+
+  // -1: none within two mean edges.
+  int Find(const Eigen::Vector3d& p, const Eigen::Vector3d& normal) const {
+    const Cell cell = CellOf(p);
+    int best = -1;
+    double nearest = 4 * edge_ * edge_;
+    for (int x = cell[0] - 1; x <= cell[0] + 1; ++x)
+      for (int y = cell[1] - 1; y <= cell[1] + 1; ++y)
+        for (int z = cell[2] - 1; z <= cell[2] + 1; ++z) {
+          const auto found = cells_.find({x, y, z});
+          if (found == cells_.end()) continue;
+          for (int f : found->second) {
+            const double distance = (surface_.Centroid(f) - p).squaredNorm();
+            if (distance >= nearest || surface_.Normal(f).dot(normal) < 0.5) continue;
+            nearest = distance;
+            best = f;
+          }
+        }
+    return best;
+  }
+
+ private:
+  using Cell = std::array<int, 3>;
+  Cell CellOf(const Eigen::Vector3d& p) const {
+    const double size = 2 * edge_;
+    return {static_cast<int>(std::floor(p.x() / size)), static_cast<int>(std::floor(p.y() / size)),
+            static_cast<int>(std::floor(p.z() / size))};
+  }
+
+  const Surface& surface_;
+  double edge_ = 1;
+  std::map<Cell, std::vector<int>> cells_;
+};
+
+Eigen::Vector3d MirroredNormal(const MirrorPlane& mirror, const Eigen::Vector3d& n) {
+  return n - 2 * mirror.normal.dot(n) * mirror.normal;
+}
+
+// The share of the area that has a mirror image, of every `stride`-th face. With `better`, also the plane
+// that fits the pairs.
+double ShareMirrored(const Surface& surface, const FaceFinder& finder, const MirrorPlane& mirror, int stride,
+                     MirrorPlane* better) {
+  double good = 0, all = 0;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (int f = 0; f < surface.FaceCount(); f += stride) {
+    all += surface.Area(f);
+    const Eigen::Vector3d p = mirror.Mirrored(surface.Centroid(f));
+    const int g = finder.Find(p, MirroredNormal(mirror, surface.Normal(f)));
+    if (g < 0) continue;
+    // Along the surface the triangles may lie as they like.
+    constexpr double kOff = 0.35;  // of an edge's length: noise of 5 % and coarse curved faces are within
+    if (std::abs(surface.Normal(g).dot(p - surface.Centroid(g))) > kOff * finder.MeanEdge()) continue;
+    good += surface.Area(f);
+    if (better == nullptr) continue;
+    const Eigen::Vector3d d = surface.Centroid(f) - surface.Centroid(g);
+    spread += surface.Area(f) * d * d.transpose();
+    middle += surface.Area(f) * (surface.Centroid(f) + surface.Centroid(g)) / 2;
+  }
+  if (better != nullptr && good > 0) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+    better->normal = axes.eigenvectors().col(2);
+    better->offset = better->normal.dot(middle / good);
+  }
+  return all > 0 ? good / all : 0;
+}
+
+// Parts of charts that hang together with the rest of theirs no more go to the neighbour with most border.
+void GiveAwayFragments(const Surface& surface, ChartIds& ids) {
+  ChartIds pieces = ids;
+  SplitAndCompact(surface, pieces);
+  std::vector<double> area(ChartCount(pieces), 0);
+  std::map<int, int> largest;  // piece of each old id
+  std::vector<int> id_of(area.size(), 0);
+  for (int f = 0; f < surface.FaceCount(); ++f) {
+    area[pieces[f]] += surface.Area(f);
+    id_of[pieces[f]] = ids[f];
+  }
+  for (int p = 0; p < static_cast<int>(area.size()); ++p) {
+    const auto [it, is_new] = largest.insert({id_of[p], p});
+    if (!is_new && area[p] > area[it->second]) it->second = p;
+  }
+  std::vector<std::map<int, double>> border(area.size());
+  for (int h = 0; h < surface.HalfEdgeCount(); ++h) {
+    const int g = surface.Neighbour(h);
+    if (g >= 0 && pieces[g] != pieces[h / 3]) border[pieces[h / 3]][pieces[g]] += surface.Length(h);
+  }
+  for (int p = 0; p < static_cast<int>(area.size()); ++p) {
+    if (largest[id_of[p]] == p) continue;
+    double longest = 0;
+    for (const auto& [q, length] : border[p])
+      if (length > longest && largest[id_of[q]] == q) {
+        longest = length;
+        id_of[p] = id_of[q];
+      }
+  }
+  for (int f = 0; f < surface.FaceCount(); ++f) ids[f] = id_of[pieces[f]];
+  SplitAndCompact(surface, ids);
+}
+
+}  // namespace
+
+std::optional<MirrorPlane> FindMirrorPlane(const Surface& surface) {
+  const FaceFinder finder(surface);
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (int f = 0; f < surface.FaceCount(); ++f)
+    middle += surface.Area(f) / surface.TotalArea() * surface.Centroid(f);
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (int f = 0; f < surface.FaceCount(); ++f) {
+    const Eigen::Vector3d d = surface.Centroid(f) - middle;
+    spread += surface.Area(f) * d * d.transpose();
+  }
+  // Planes across the main axes; those of a cube or a ball are arbitrary, so those of the coordinates too.
+  const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors();
+  constexpr int kSamples = 3000, kRefinements = 8;
+  constexpr double kLikely = 0.5, kMirrored = 0.96;
+  const int stride = std::max(1, surface.FaceCount() / kSamples);
+  std::optional<MirrorPlane> best;
+  double best_share = kMirrored;
+  for (int k = 0; k < 6; ++k) {
+    MirrorPlane mirror;
+    mirror.normal = k < 3 ? Eigen::Vector3d(axes.col(k)) : Eigen::Vector3d(Eigen::Vector3d::Unit(k - 3));
+    mirror.offset = mirror.normal.dot(middle);
+    double share = 0;
+    for (int step = 0; step < kRefinements; ++step) {
+      MirrorPlane better;
+      share = ShareMirrored(surface, finder, mirror, stride, &better);
+      if (share < kLikely && step > 2) break;
+      mirror = better;
+    }
+    share = ShareMirrored(surface, finder, mirror, stride, nullptr);
+    constexpr double kClearly = 1e-3;  // of equally good planes the first
+    if (share < best_share + (best ? kClearly : 0)) continue;
+    best_share = share;
+    best = mirror;
+  }
+  if (!best) return best;
+  // The same direction for the same surface.
+  int largest = 0;
+  best->normal.cwiseAbs().maxCoeff(&largest);
+  if (best->normal[largest] < 0) {
+    best->normal = -best->normal;
+    best->offset = -best->offset;
+  }
+  for (int f = 0; f < surface.FaceCount(); ++f)
+    best->image.push_back(
+        finder.Find(best->Mirrored(surface.Centroid(f)), MirroredNormal(*best, surface.Normal(f))));
+  return best;
+}
+
+bool MirrorCharts(const Surface& surface, const MirrorPlane& mirror, double stretch_bound, Progress& progress,
+                  ChartIds& ids) {
+  const int count = ChartCount(ids);
+  const auto is_above = [&](int f) { return mirror.Height(surface.Centroid(f)) >= 0; };
+  // The half with the shorter seams is kept.
+  double seams[2] = {0, 0};
+  for (int h = 0; h < surface.HalfEdgeCount(); ++h) {
+    const int g = surface.Neighbour(h);
+    if (g >= 0 && ids[g] != ids[h / 3]) seams[is_above(h / 3)] += surface.Length(h);
+  }
+  const bool keep_above = seams[1] <= seams[0];
+  ChartIds mirrored = ids;
+  for (int f = 0; f < surface.FaceCount(); ++f) {
+    if (is_above(f) == keep_above) continue;
+    const int g = mirror.image[f];
+    // Where there is no image, what is there stays, as the image's chart.
+    mirrored[f] = count + ids[g >= 0 && is_above(g) == keep_above ? g : f];
+  }
+  GiveAwayFragments(surface, mirrored);
+
+  // Which charts are each other's images, and how long they meet.
+  const int new_count = ChartCount(mirrored);
+  std::vector<std::map<int, double>> images(new_count);
+  for (int f = 0; f < surface.FaceCount(); ++f)
+    if (mirror.image[f] >= 0) images[mirrored[f]][mirrored[mirror.image[f]]] += surface.Area(f);
+  std::map<std::pair<int, int>, double> meet;
+  for (int h = 0; h < surface.HalfEdgeCount(); ++h) {
+    const int g = surface.Neighbour(h);
+    if (g >= 0 && mirrored[h / 3] < mirrored[g]) meet[{mirrored[h / 3], mirrored[g]}] += surface.Length(h);
+  }
+  const auto charts = FacesOfCharts(mirrored);
+  const SeamMask no_seams(surface.FaceCount(), 0);
+  PatchExtractor<SurfaceMesh> extractor(surface, no_seams);
+  for (const auto& [pair, length] : meet) {
+    const auto image = std::max_element(images[pair.first].begin(), images[pair.first].end(),
+                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (image == images[pair.first].end() || image->first != pair.second) continue;
+    progress.Poll();
+    std::vector<int> faces = charts[pair.first];
+    faces.insert(faces.end(), charts[pair.second].begin(), charts[pair.second].end());
+    std::sort(faces.begin(), faces.end());
+    if (!TryChart(extractor.Extract(faces), stretch_bound, [&] { progress.Poll(); }).flat) continue;
+    for (int f : charts[pair.second]) mirrored[f] = pair.first;
+  }
+  SplitAndCompact(surface, mirrored);
+  if (ChartCount(mirrored) > 2 * count) return false;
+  ids = std::move(mirrored);
+  return true;
+}
+
+}  // namespace dcharts

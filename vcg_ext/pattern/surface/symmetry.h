@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/progress.h"
+#include "surface/charts.h"
+#include "surface/surface_mesh.h"
+
+namespace dcharts {
+
+/// A plane that mirrors a surface onto itself, nearly.
+struct MirrorPlane {
+  Eigen::Vector3d normal{1, 0, 0};  ///< unit vector
+  double offset = 0;                ///< of the plane along the normal
+  std::vector<int> image;           ///< per face the one at its mirror image, -1 where there is none
+
+  double Height(const Eigen::Vector3d& p) const { return normal.dot(p) - offset; }
+  Eigen::Vector3d Mirrored(const Eigen::Vector3d& p) const { return p - 2 * Height(p) * normal; }
+};
+
+/// The plane that mirrors the surface best, when it does so but for noise: nearly all of its area has a
+/// mirror image within a fraction of an edge's length. The triangles need not be symmetric.
+std::optional<MirrorPlane> FindMirrorPlane(const SurfaceGraph<SurfaceMesh>& surface);
+
+/// Gives one half of the surface the mirror images of the other half's charts, so that a pattern has mirrored
+/// pairs. A chart that meets its own image at the plane is joined with it where both lie flat within
+/// `stretch_bound`. Leaves `ids` alone, and returns false, when there would be more than twice as many
+/// charts.
+bool MirrorCharts(const SurfaceGraph<SurfaceMesh>& surface, const MirrorPlane& mirror, double stretch_bound,
+                  Progress& progress, ChartIds& ids);
+
+}  // namespace dcharts
