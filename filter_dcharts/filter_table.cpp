@@ -267,11 +267,11 @@ std::vector<ParamSpec> MakeParams() {
   };
 }
 
-// The parameters of these names, in the order of AllParams().
+// The parameters of these names, in this order.
 std::vector<const ParamSpec*> Pick(std::initializer_list<std::string_view> names) {
   std::vector<const ParamSpec*> picked;
-  for (const ParamSpec& spec : AllParams())
-    for (std::string_view name : names)
+  for (std::string_view name : names)
+    for (const ParamSpec& spec : AllParams())
       if (name == spec.name) picked.push_back(&spec);
   if (picked.size() != names.size())
     throw std::logic_error("a filter names a parameter that is not in the table");
@@ -375,8 +375,20 @@ std::vector<FilterSpec> MakeFilters() {
        "darts and notation. Adds one layer with the pieces, lying side by side, and writes them to a file. "
        "The mesh itself stays as it is.",
        "Section 4", kWritesNothing, texture,
-       Pick({"target_charts",
+       Pick({"material",
+             "size",
+             "units",
+             "seam_allowance",
+             "tab_width",
+             "page",
+             "oversize",
+             "output_file",
+             "merge_congruent",
+             "print_texture",
+             "target_charts",
              "max_stretch",
+             "fold_angle",
+             "simplify_tolerance",
              "chart_count",
              "max_fitting_error",
              "fitting_weight",
@@ -387,19 +399,7 @@ std::vector<FilterSpec> MakeFilters() {
              "merge_threshold",
              "dart_by",
              "dart_fitting_error",
-             "max_dart_percent",
-             "material",
-             "size",
-             "units",
-             "seam_allowance",
-             "tab_width",
-             "simplify_tolerance",
-             "fold_angle",
-             "merge_congruent",
-             "print_texture",
-             "page",
-             "oversize",
-             "output_file"})},
+             "max_dart_percent"})},
       {FilterId::kMeasure,
        "D-Charts: Measure",
        "dcharts_measure",

@@ -60,3 +60,15 @@ def screenshots(tmp_path_factory):
 @pytest.fixture(scope='session')
 def plush():
     return ROOT / 'meshes' / 'plush.ply'
+
+
+@pytest.fixture(scope='session')
+def large_plush(plush, tmp_path_factory):
+    """The same in mm, 30 cm tall: a pattern of it can be made without giving a size."""
+    pymeshlab = pytest.importorskip('pymeshlab')
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(plush))
+    ms.compute_matrix_from_scaling_or_normalization(axisx=100, uniformflag=True)
+    file = tmp_path_factory.mktemp('large') / 'plush.ply'
+    ms.save_current_mesh(str(file))
+    return file

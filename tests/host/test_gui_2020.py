@@ -5,9 +5,9 @@ import pytest
 from meshlab_gui import MeshlabGui
 
 
-@pytest.mark.parametrize('name', ['D-Charts: Segment', 'D-Charts: Texture Atlas'])
-def test_filter_colors_the_charts(screen, meshlab_2020, plush, screenshots, name):
-    gui = MeshlabGui(screen, [meshlab_2020.bin / 'meshlab'], plush)
+@pytest.mark.parametrize('name', ['D-Charts: Segment', 'D-Charts: Texture Atlas', 'D-Charts: Pattern'])
+def test_filter_colors_the_charts(screen, meshlab_2020, large_plush, screenshots, name):
+    gui = MeshlabGui(screen, [meshlab_2020.bin / 'meshlab'], large_plush)
     try:
         before = gui.colors()
         try:

@@ -24,17 +24,18 @@ def home(forky):
     shutil.rmtree(home)
 
 
-def test_texture_atlas_colors_the_charts(screen, forky, home, plush, screenshots):
-    shutil.copy(plush, home / 'plush.ply')
+@pytest.mark.parametrize('name', ['D-Charts: Texture Atlas', 'D-Charts: Pattern'])
+def test_filter_colors_the_charts(screen, forky, home, large_plush, screenshots, name):
+    shutil.copy(large_plush, home / 'plush.ply')
     at_home = '/' + str(home.relative_to(forky))
     gui = MeshlabGui(screen, inside(forky, 'meshlab'), f'{at_home}/plush.ply',
                      env={'HOME': at_home, 'XDG_RUNTIME_DIR': at_home})
     try:
         before = gui.colors()
         try:
-            gui.apply('D-Charts: Texture Atlas')
+            gui.apply(name)
         finally:
-            screen.save_screen(screenshots / '2025 D-Charts Texture Atlas.png')
+            screen.save_screen(screenshots / f'2025 {name}.png'.replace(': ', ' '))
         assert gui.has_line(r'\bcharts\b\W+[0-9]'), gui.output[-2000:]
         assert gui.colors() >= before + 3, 'no coloured charts on the screen'
     finally:
