@@ -31,13 +31,14 @@ struct Views {
 Views ChooseViews(const Pattern& pattern, const SurfaceData& mesh) {
   constexpr int kTrialPixels = 160;
   constexpr double kSeen = 3;  // pixels of such a small picture
-  const int count = static_cast<int>(pattern.pieces.size());
+  const int count = static_cast<int>(pattern.pieces.size()), up = GuessUp(mesh);
   std::vector<std::pair<double, double>> directions;
   std::vector<ModelView> trials;
   for (double elevation : {20.0, -35.0, 65.0})
     for (int k = 0; k < 8; ++k) {
       directions.emplace_back(30 + 45 * k, elevation);
-      trials.push_back(ViewModel(mesh, pattern.piece_of_face, count, 30 + 45 * k, elevation, kTrialPixels));
+      trials.push_back(
+          ViewModel(mesh, pattern.piece_of_face, count, up, 30 + 45 * k, elevation, kTrialPixels));
     }
   std::vector<double> best(count, 0);
   Views chosen;
@@ -57,7 +58,7 @@ Views ChooseViews(const Pattern& pattern, const SurfaceData& mesh) {
     if (most == 0 || (round >= 2 && all_seen)) break;
     for (int p = 0; p < count; ++p) best[p] = std::max(best[p], trials[winner].spots[p].radius);
     const auto [azimuth, elevation] = directions[winner];
-    chosen.views.push_back(ViewModel(mesh, pattern.piece_of_face, count, azimuth, elevation, kPixels));
+    chosen.views.push_back(ViewModel(mesh, pattern.piece_of_face, count, up, azimuth, elevation, kPixels));
   }
   // A number stands in every picture that has room for it, or else where there is most.
   chosen.numbered.resize(chosen.views.size());

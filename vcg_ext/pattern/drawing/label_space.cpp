@@ -60,6 +60,37 @@ bool IsInside(const Point2& p, const std::vector<Polyline>& loops) {
   return inside;
 }
 
+std::vector<Polyline> OutsideBoxes(const Point2& from, const Point2& to, const std::vector<Box>& boxes) {
+  std::vector<std::pair<double, double>> hidden;  // ranges of the segment's parameter
+  for (const Box& box : boxes) {
+    double enter = 0, leave = 1;
+    for (int d = 0; d < 2; ++d) {
+      const Point2 axis = d == 0 ? box.AxisX() : box.AxisY();
+      const double start = axis.dot(from - box.center), way = axis.dot(to - from);
+      if (way == 0) {
+        if (std::abs(start) > box.half[d]) leave = -1;
+        continue;
+      }
+      const auto [near, far] = std::minmax({(-box.half[d] - start) / way, (box.half[d] - start) / way});
+      enter = std::max(enter, near);
+      leave = std::min(leave, far);
+    }
+    if (enter < leave) hidden.emplace_back(enter, leave);
+  }
+  std::sort(hidden.begin(), hidden.end());
+  std::vector<Polyline> parts;
+  double begin = 0;
+  const auto add = [&](double end) {
+    if (end > begin) parts.push_back({from + begin * (to - from), from + end * (to - from)});
+  };
+  for (const auto& [enter, leave] : hidden) {
+    add(enter);
+    begin = std::max(begin, leave);
+  }
+  add(1);
+  return parts;
+}
+
 template <class Visit>
 bool LabelSpace::AnyNear(const std::vector<Point2>& corners, Visit visit) const {
   Point2 low = corners[0], high = corners[0];

@@ -54,7 +54,7 @@ void DrawTriangle(const std::array<Eigen::Vector3d, 3>& p, int piece, float ligh
     }
 }
 
-Raster DrawFaces(const SurfaceData& mesh, const std::vector<int>& piece_of_face, double azimuth,
+Raster DrawFaces(const SurfaceData& mesh, const std::vector<int>& piece_of_face, int up, double azimuth,
                  double elevation, int side) {
   const double a = azimuth * kPi / 180, e = elevation * kPi / 180;
   Eigen::Matrix3d view;  // rows: right, down, towards the eye
@@ -64,7 +64,9 @@ Raster DrawFaces(const SurfaceData& mesh, const std::vector<int>& piece_of_face,
   std::vector<Eigen::Vector3d> turned;
   turned.reserve(mesh.vertices.size());
   Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const auto& v : mesh.vertices) turned.push_back(view * Eigen::Vector3d(v[0], v[1], v[2]));
+  for (const auto& v : mesh.vertices)
+    turned.push_back(view *
+                     (up == 1 ? Eigen::Vector3d(v[0], v[1], v[2]) : Eigen::Vector3d(v[0], v[2], -v[1])));
   for (const auto& face : mesh.faces)
     for (int v : face) {
       low = low.cwiseMin(turned[v]);
@@ -163,9 +165,40 @@ std::vector<ModelView::Spot> WidestSpots(const std::vector<int>& piece, int side
 
 }  // namespace
 
-ModelView ViewModel(const SurfaceData& mesh, const std::vector<int>& piece_of_face, int piece_count,
+int GuessUp(const SurfaceData& mesh) {
+  constexpr double kGround = 0.03;  // of the height: what stands on the ground
+  Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  std::vector<Eigen::Array3d> points;
+  for (const auto& face : mesh.faces)
+    for (int v : face) {
+      points.emplace_back(mesh.vertices[v][0], mesh.vertices[v][1], mesh.vertices[v][2]);
+      low = low.min(points.back());
+      high = high.max(points.back());
+    }
+  const Eigen::Array3d size = (high - low).max(1e-300);
+  std::array<double, 3> score = {0, 0, 0};
+  for (int up : {1, 2}) {
+    Eigen::Array3d ground_low = high, ground_high = low, sum = Eigen::Array3d::Zero();
+    for (const Eigen::Array3d& p : points) {
+      sum += p;
+      if (p[up] > low[up] + kGround * size[up]) continue;
+      ground_low = ground_low.min(p);
+      ground_high = ground_high.max(p);
+    }
+    const int other = 3 - up;
+    score[up] =
+        (ground_high[0] - ground_low[0]) * (ground_high[other] - ground_low[other]) / (size[0] * size[other]);
+    // What does not fall over has its middle above the ground that it stands on.
+    const Eigen::Array3d middle = sum / static_cast<double>(std::max<std::size_t>(1, points.size()));
+    for (int d : {0, other})
+      if (middle[d] < ground_low[d] || middle[d] > ground_high[d]) score[up] *= 0.3;
+  }
+  return score[2] > score[1] ? 2 : 1;
+}
+
+ModelView ViewModel(const SurfaceData& mesh, const std::vector<int>& piece_of_face, int piece_count, int up,
                     double azimuth, double elevation, int pixels) {
-  const Raster raster = DrawFaces(mesh, piece_of_face, azimuth, elevation, kFiner * pixels);
+  const Raster raster = DrawFaces(mesh, piece_of_face, up, azimuth, elevation, kFiner * pixels);
   ModelView view;
   view.picture = ShrunkPicture(raster, pixels);
   std::vector<int> coarse(static_cast<std::size_t>(pixels) * pixels);

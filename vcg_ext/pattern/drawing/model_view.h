@@ -22,9 +22,13 @@ struct ModelView {
   std::vector<bool> empty;  ///< per pixel: nothing is there
 };
 
-/// Draws the model from a direction, without perspective, y upwards. Angles in degrees: `azimuth` around the
-/// y axis from the z axis, `elevation` above the ground. `pixels`: side of the picture.
-ModelView ViewModel(const SurfaceData& mesh, const std::vector<int>& piece_of_face, int piece_count,
+/// The axis, 1 (y) or 2 (z), that most likely points up: the one at whose lower end the model has something
+/// broad to stand on. Only a guess; y where both are alike.
+int GuessUp(const SurfaceData& mesh);
+
+/// Draws the model from a direction, without perspective, the axis `up` (1 or 2) upwards. Angles in degrees:
+/// `azimuth` around that axis, `elevation` above the ground. `pixels`: side of the picture.
+ModelView ViewModel(const SurfaceData& mesh, const std::vector<int>& piece_of_face, int piece_count, int up,
                     double azimuth, double elevation, int pixels);
 
 }  // namespace dcharts

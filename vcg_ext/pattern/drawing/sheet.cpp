@@ -9,8 +9,31 @@
 #include "pattern/drawing/piece_texture.h"
 #include "pattern/drawing/placed_piece.h"
 #include "pattern/drawing/sheet_marks.h"
+#include "pattern/drawing/text_box.h"
 
 namespace dcharts {
+
+namespace {
+
+constexpr double kClearOfRulings = 0.2;  // mm
+
+// Rulings are all over a piece, so labels lie on them: they are left out there.
+void OpenRulings(Group& group) {
+  std::vector<Box> boxes;
+  for (const Text& text : group.texts) boxes.push_back(BoxOf(text).Grown(kClearOfRulings));
+  std::vector<Line> lines;
+  for (Line& line : group.lines) {
+    if (line.mark != Mark::kRuling) {
+      lines.push_back(std::move(line));
+      continue;
+    }
+    for (Polyline& part : OutsideBoxes(line.points[0], line.points[1], boxes))
+      lines.push_back({Mark::kRuling, std::move(part)});
+  }
+  group.lines = std::move(lines);
+}
+
+}  // namespace
 
 std::vector<Group> PieceGroups(Draft& draft, const std::vector<const Piece*>& pieces,
                                const std::vector<PiecePlacement>& placements, double margin,
@@ -36,6 +59,7 @@ std::vector<Group> PieceGroups(Draft& draft, const std::vector<const Piece*>& pi
   for (std::size_t i = 0; i < placed.size(); ++i)
     for (const std::string& label : AddPieceLabels(pattern, placed[i], placed, space, groups[i]))
       draft.unplaced.push_back(pieces[i]->name + ": " + label);
+  for (Group& group : groups) OpenRulings(group);
   return groups;
 }
 

@@ -9,6 +9,7 @@
 #include "common/parallel.h"
 #include "pattern/equal_seams.h"
 #include "pattern/place_pieces.h"
+#include "pattern/surface/patch_darts.h"
 #include "planar/flatten.h"
 #include "planar/overlap.h"
 #include "surface/chart_patch.h"
@@ -21,36 +22,6 @@ namespace {
 // The two sides of a seam edge are no seam any more.
 void ClearSeam(SeamMask& seams, int h) {
   seams[h / 3] = static_cast<std::uint8_t>(seams[h / 3] & ~(1 << (h % 3)));
-}
-
-// A cut that ends inside the chart: local half-edges from its tip on, those that arrive there first.
-struct PatchDart {
-  std::vector<int> arriving, leaving;
-};
-
-std::vector<PatchDart> DartsOf(const SurfaceGraph<SurfaceMesh>& surface, const ChartPatch& patch) {
-  std::vector<int> leaving(patch.VertexCount(), -1), arriving(patch.VertexCount(), -1);
-  for (int h = 0; h < patch.HalfEdgeCount(); ++h) {
-    if (patch.opposite[h] >= 0) continue;
-    leaving[patch.Vertex(h)] = h;
-    arriving[patch.Vertex(Next(h))] = h;
-  }
-  std::vector<PatchDart> darts;
-  for (int tip = 0; tip < patch.VertexCount(); ++tip) {
-    PatchDart dart;
-    for (int left = tip, right = tip;;) {
-      const int in = arriving[left], out = leaving[right];
-      if (in < 0 || out < 0 || surface.Opposite(patch.SurfaceHalfEdge(in)) != patch.SurfaceHalfEdge(out))
-        break;
-      dart.arriving.push_back(in);
-      dart.leaving.push_back(out);
-      left = patch.Vertex(in);
-      right = patch.Vertex(Next(out));
-      if (left == right) break;  // the other end of a slit
-    }
-    if (!dart.arriving.empty()) darts.push_back(std::move(dart));
-  }
-  return darts;
 }
 
 // How many of the dart's edges lie side by side in the plane, from its tip on.

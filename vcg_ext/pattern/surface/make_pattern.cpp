@@ -69,14 +69,33 @@ void MakeSymmetric(const SurfaceGraph<SurfaceMesh>& surface, const Params& param
   const std::optional<MirrorPlane> mirror = FindMirrorPlane(surface);
   if (!mirror) return;
   progress.BeginStage("Mirroring charts...", done, done);
-  // The images of charts stretch a little more than they: they are not to be parted for that.
-  Params looser = params;
+  const bool keep_above = HasShorterSeamsAbove(surface, *mirror, ids);
+  const auto mirror_charts = [&](double bound, ChartIds& charts) {
+    return MirrorCharts(surface, *mirror, keep_above, bound, progress, charts);
+  };
+  ChartIds mirrored = ids;
+  if (!mirror_charts(params.StretchBound(), mirrored)) return;
+  StraightenBorders(surface, params, progress, mirrored);
+  // Cut, which may part charts, and mirrored again with all the cuts. Images of charts stretch a little more
+  // than they: they are not to be parted for that.
+  Params looser = params, uncut = params;
   constexpr double kLooser = 1.3;
   if (params.max_stretch > 0) looser.max_stretch = 1 + kLooser * (params.StretchBound() - 1);
-  if (!MirrorCharts(surface, *mirror, params.StretchBound(), progress, ids)) return;
-  StraightenBorders(surface, params, progress, ids);
-  known = KnownFlattenings();
-  ChartCutter<SurfaceMesh>(surface, looser, progress).Run(ids, seams, known);
+  uncut.max_stretch = uncut.max_dart_percent = 0;
+  ChartIds cut = mirrored;
+  SeamMask cut_seams, new_seams;
+  KnownFlattenings flat;
+  ChartCutter<SurfaceMesh>(surface, looser, progress).Run(cut, cut_seams, flat);
+  mirrored = cut;
+  if (!mirror_charts(looser.StretchBound(), mirrored)) return;
+  ChartCutter<SurfaceMesh>(surface, uncut, progress).Run(mirrored, new_seams, flat);
+  MirrorDarts(surface, *mirror, keep_above, cut, cut_seams, mirrored, new_seams);
+  DropIneffectiveSeams(surface, new_seams);
+  SplitAndCompact(surface, mirrored, &new_seams);
+  flat = KnownFlattenings();
+  ids = std::move(mirrored);
+  seams = std::move(new_seams);
+  known = std::move(flat);
   progress.Log("The model is symmetric: its pieces are made in mirrored pairs.");
 }
 

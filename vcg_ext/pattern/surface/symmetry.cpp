@@ -10,8 +10,10 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "pattern/surface/patch_darts.h"
 #include "surface/chart_patch.h"
 #include "surface/chart_trial.h"
+#include "surface/patch_paths.h"
 
 namespace dcharts {
 namespace {
@@ -178,17 +180,20 @@ std::optional<MirrorPlane> FindMirrorPlane(const Surface& surface) {
   return best;
 }
 
-bool MirrorCharts(const Surface& surface, const MirrorPlane& mirror, double stretch_bound, Progress& progress,
-                  ChartIds& ids) {
-  const int count = ChartCount(ids);
-  const auto is_above = [&](int f) { return mirror.Height(surface.Centroid(f)) >= 0; };
-  // The half with the shorter seams is kept.
+bool HasShorterSeamsAbove(const Surface& surface, const MirrorPlane& mirror, const ChartIds& ids) {
   double seams[2] = {0, 0};
   for (int h = 0; h < surface.HalfEdgeCount(); ++h) {
     const int g = surface.Neighbour(h);
-    if (g >= 0 && ids[g] != ids[h / 3]) seams[is_above(h / 3)] += surface.Length(h);
+    if (g >= 0 && ids[g] != ids[h / 3])
+      seams[mirror.Height(surface.Centroid(h / 3)) >= 0] += surface.Length(h);
   }
-  const bool keep_above = seams[1] <= seams[0];
+  return seams[1] <= seams[0];
+}
+
+bool MirrorCharts(const Surface& surface, const MirrorPlane& mirror, bool keep_above, double stretch_bound,
+                  Progress& progress, ChartIds& ids) {
+  const int count = ChartCount(ids);
+  const auto is_above = [&](int f) { return mirror.Height(surface.Centroid(f)) >= 0; };
   ChartIds mirrored = ids;
   for (int f = 0; f < surface.FaceCount(); ++f) {
     if (is_above(f) == keep_above) continue;
@@ -226,6 +231,51 @@ bool MirrorCharts(const Surface& surface, const MirrorPlane& mirror, double stre
   if (ChartCount(mirrored) > 2 * count) return false;
   ids = std::move(mirrored);
   return true;
+}
+
+void MirrorDarts(const Surface& surface, const MirrorPlane& mirror, bool keep_above, const ChartIds& cut_ids,
+                 const SeamMask& cut_seams, const ChartIds& ids, SeamMask& seams) {
+  const auto charts = FacesOfCharts(ids);
+  const SeamMask borders = ChartBorders(surface, ids);
+  PatchExtractor<SurfaceMesh> cut_extractor(surface, cut_seams), extractor(surface, borders);
+  const auto mark = [&](int h) {
+    SetSeam(seams, h);
+    if (surface.Opposite(h) >= 0) SetSeam(seams, surface.Opposite(h));
+  };
+  for (const auto& faces : FacesOfCharts(cut_ids)) {
+    const ChartPatch patch = cut_extractor.Extract(faces);
+    for (const PatchDart& dart : DartsOf(surface, patch)) {
+      const auto edge_of = [&](size_t k) { return patch.SurfaceHalfEdge(dart.arriving[k]); };
+      const int tip = surface.Vertex(Next(edge_of(0))),
+                base = surface.Vertex(edge_of(dart.arriving.size() - 1));
+      const double height = mirror.Height(surface.Position(tip)), edge = surface.Length(edge_of(0));
+      // One on the plane is its own image.
+      if (std::abs(height) > edge && (height > 0) != keep_above) continue;
+      for (size_t k = 0; k < dart.arriving.size(); ++k) mark(edge_of(k));
+      const int image = mirror.image[edge_of(0) / 3];
+      if (std::abs(height) <= edge || image < 0) continue;
+
+      const ChartPatch other = extractor.Extract(charts[ids[image]]);
+      PatchPaths paths(other);
+      const auto nearest = [&](const Eigen::Vector3d& p, bool on_boundary) {
+        int best = -1;
+        double distance = std::numeric_limits<double>::infinity();
+        for (int v = 0; v < other.VertexCount(); ++v) {
+          const double d = (other.mesh.positions.row(v).transpose() - p).squaredNorm();
+          if (paths.OnBoundary(v) != on_boundary || d >= distance) continue;
+          distance = d;
+          best = v;
+        }
+        return best;
+      };
+      const int from = nearest(mirror.Mirrored(surface.Position(base)), true),
+                to = nearest(mirror.Mirrored(surface.Position(tip)), false);
+      if (from < 0 || to < 0) continue;
+      paths.Run({from}, true);
+      if (paths.Source(to) < 0) continue;
+      for (int h : paths.Path(to)) mark(other.SurfaceHalfEdge(h));
+    }
+  }
 }
 
 }  // namespace dcharts

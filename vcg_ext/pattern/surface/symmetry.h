@@ -26,11 +26,20 @@ struct MirrorPlane {
 /// mirror image within a fraction of an edge's length. The triangles need not be symmetric.
 std::optional<MirrorPlane> FindMirrorPlane(const SurfaceGraph<SurfaceMesh>& surface);
 
+/// Whether the seams are shorter in the half that the plane's normal points to.
+bool HasShorterSeamsAbove(const SurfaceGraph<SurfaceMesh>& surface, const MirrorPlane& mirror,
+                          const ChartIds& ids);
+
 /// Gives one half of the surface the mirror images of the other half's charts, so that a pattern has mirrored
-/// pairs. A chart that meets its own image at the plane is joined with it where both lie flat within
-/// `stretch_bound`. Leaves `ids` alone, and returns false, when there would be more than twice as many
-/// charts.
-bool MirrorCharts(const SurfaceGraph<SurfaceMesh>& surface, const MirrorPlane& mirror, double stretch_bound,
-                  Progress& progress, ChartIds& ids);
+/// pairs. `keep_above`: the half that the normal points to is the one that stays. A chart that meets its own
+/// image at the plane is joined with it where both lie flat within `stretch_bound`. Leaves `ids` alone, and
+/// returns false, when there would be more than twice as many charts.
+bool MirrorCharts(const SurfaceGraph<SurfaceMesh>& surface, const MirrorPlane& mirror, bool keep_above,
+                  double stretch_bound, Progress& progress, ChartIds& ids);
+
+/// Darts of the half that stays, and their mirror images: `cut_ids` and `cut_seams` have darts, `ids` are the
+/// mirrored charts, whose `seams` get them.
+void MirrorDarts(const SurfaceGraph<SurfaceMesh>& surface, const MirrorPlane& mirror, bool keep_above,
+                 const ChartIds& cut_ids, const SeamMask& cut_seams, const ChartIds& ids, SeamMask& seams);
 
 }  // namespace dcharts
