@@ -56,6 +56,17 @@ struct ChartGroups {
   }
   double SeamCost(double length) const { return params.seam_weight * kSeamPrice * length; }
   double Energy(int c) const { return charts[c].trial.energy * charts[c].area; }
+  /// Of all charts and the seams between them.
+  double Cost() const {
+    const std::vector<int> owner = Owners();
+    double cost = 0;
+    for (int c = 0; c < static_cast<int>(charts.size()); ++c)
+      if (charts[c].alive) cost += Energy(c) + SeamCost(CutLength(charts[c].trial));
+    for (int p = 0; p < parts.Count(); ++p)
+      for (const auto& [q, length] : parts.Borders(p))
+        if (p < q && owner[p] != owner[q]) cost += SeamCost(length);
+    return cost;
+  }
   double CutLength(const ChartTrial& trial) const { return trial.cut_length / parts.Unit(); }
   /// For work that may take long.
   std::function<void()> Poll() {

@@ -28,11 +28,19 @@ class Lloyd {
   Lloyd(const SurfaceGraph<MeshType>& surface, const Params& params, Progress& progress)
       : surface_(surface), params_(params), progress_(progress), seeds_(surface), growth_(surface, params) {}
 
+  /// How many charts params.target_charts are best merged from. Measured: with fewer, merging has too little
+  /// choice; more cost time and gain little.
+  static int EnoughCharts(const Params& params, int face_count) {
+    constexpr int kEnough = 56, kPerTarget = 4;
+    return std::min(std::max(kEnough, kPerTarget * std::min(params.target_charts, face_count)), face_count);
+  }
+
   /// params.chart_count charts. 0 takes several times params.target_charts, for merging to choose from, or,
   /// without a target, finds the number: the smallest of a growing list for which the charts fit well.
   Segmentation Run() {
     if (params_.chart_count > 0) return Iterate(params_.chart_count, params_.max_iterations);
-    if (params_.target_charts > 0) return Iterate(EnoughCharts(), params_.max_iterations);
+    if (params_.target_charts > 0)
+      return Iterate(EnoughCharts(params_, surface_.FaceCount()), params_.max_iterations);
     constexpr int kTrialIterations = 6;
     int iterations = 0;
     for (int count = 1;; count = std::max(count + 1, count * 5 / 4)) {
@@ -48,13 +56,6 @@ class Lloyd {
 
  private:
   static constexpr int kMostCharts = 2000;
-
-  // Measured: with fewer, merging has too little choice; more cost time and gain little.
-  int EnoughCharts() const {
-    constexpr int kEnough = 56, kPerTarget = 4;
-    const int most = surface_.FaceCount();
-    return std::min(std::max(kEnough, kPerTarget * std::min(params_.target_charts, most)), most);
-  }
 
   // Charts that fit to this share of F_max flatten with an L2 stretch below 1.005 on models of many kinds,
   // and are about as many as the paper starts with. A tighter bound than the usual one asks for more of them.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "surface/atlas_figures.h"
+#include "surface/choose_segmentation.h"
 #include "surface/cut.h"
 #include "surface/fill.h"
 #include "surface/lloyd.h"
@@ -100,7 +101,7 @@ SurfaceChange Segment(const SurfaceData& mesh, const Params& params, Progress& p
   Segmentation result;
   {
     Stage stage("segment", "Growing charts...", 0, 1, progress, change.report);
-    result = Lloyd<SurfaceMesh>(work.Surface(), params, progress).Run();
+    result = SegmentationChooser<SurfaceMesh>(work.Surface(), params, progress).Run();
   }
   change.report.iterations = result.iterations;
   return ChartsWritten(work, result.ids, std::move(change));
@@ -177,7 +178,7 @@ void MakeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, 
                 Progress& progress, ChartIds& ids, SeamMask& seams, KnownFlattenings& known, Report& report) {
   {
     Stage stage("segment", "Growing charts...", 0, 0.25 * share, progress, report);
-    Segmentation result = Lloyd<SurfaceMesh>(surface, params, progress).Run();
+    Segmentation result = SegmentationChooser<SurfaceMesh>(surface, params, progress).Run();
     ids = std::move(result.ids);
     report.iterations = result.iterations;
   }

@@ -25,8 +25,7 @@ class TrialMerger {
   /// stays within params.max_stretch, or, without a bound, as long as a shorter seam is worth the stretch. At
   /// last the borders are moved to better places.
   void Run(ChartIds& ids) {
-    constexpr double kGood = 1.01;  // a segment that lies flat worse than this is better split
-    SplitBadCharts(surface_, std::min(kGood, params_.StretchBound()), progress_, ids);
+    Split(ids);
     ChartParts<MeshType> parts(surface_, ids);
     ChartGroups<MeshType> groups(parts, params_, progress_);
     CheckedMerger<MeshType>(groups).Run();
@@ -36,7 +35,31 @@ class TrialMerger {
     BorderRefiner<MeshType>(surface_, params_, progress_).Run(ids);
   }
 
+  /// What ChartGroups::Cost() would be after Run(), by trials on the coarse copy alone: only to compare
+  /// segmentations of one surface by.
+  double CoarseCost(ChartIds ids) {
+    Split(ids);
+    ChartParts<MeshType> parts(surface_, ids);
+    ChartGroups<MeshType> groups(parts, params_, progress_);
+    GreedyMerger<MeshType> greedy(groups);
+    groups.bound = params_.StretchBound();
+    greedy.Run();
+    if (params_.target_charts > 0 && greedy.MayMergeMore()) {
+      groups.bound = groups.kNoBound;
+      greedy.ForgetFailures();
+      greedy.Run();
+    }
+    const auto before = groups.charts;
+    MergeImprover<MeshType>(groups).Run(before);
+    return groups.Cost();
+  }
+
  private:
+  void Split(ChartIds& ids) {
+    constexpr double kGood = 1.01;  // a segment that lies flat worse than this is better split
+    SplitBadCharts(surface_, std::min(kGood, params_.StretchBound()), progress_, ids);
+  }
+
   const SurfaceGraph<MeshType>& surface_;
   const Params& params_;
   Progress& progress_;
