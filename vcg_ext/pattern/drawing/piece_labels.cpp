@@ -15,7 +15,8 @@ namespace {
 constexpr double kClear = 0.4;         // mm that stay free around a label
 constexpr double kLargestName = 9;     // mm, font size of the piece's name
 constexpr double kSmallestText = 1.4;  // mm: what can still be read
-constexpr double kReach = 90;          // mm, length of the longest leader line
+constexpr int kDirections = 36;        // of a leader line
+constexpr double kReach = 120;         // mm, length of the longest leader line
 
 // A label of one or more lines of text, one below the other.
 struct Label {
@@ -103,24 +104,25 @@ class Labeller {
     return true;
   }
 
-  // Puts the label somewhere around `target`, with a line to it: within the piece, else outside.
-  void PutWithLeader(Label label, const Point2& target) {
+  // Puts the label somewhere around one of the targets, with a line to it: within the piece, else outside.
+  void PutWithLeader(Label label, const std::vector<Point2>& targets) {
     label.angle = 0;
     for (bool inside : {true, false})
-      for (double scale : Scales(label, 0.8)) {
-        const std::optional<Box> box = LeadTo(label.BoxAt({0, 0}, scale), target, inside);
-        if (!box) continue;
-        Put(label, box->center, scale);
-        return;
-      }
+      for (double scale : Scales(label, 0.8))
+        for (const Point2& target : targets) {
+          const std::optional<Box> box = LeadTo(label.BoxAt({0, 0}, scale), target, inside);
+          if (!box) continue;
+          Put(label, box->center, scale);
+          return;
+        }
     unplaced_.push_back(label.lines[0].text);
   }
 
   // The box at the nearest free place around `target`, and a line drawn between them.
   std::optional<Box> LeadTo(Box box, const Point2& target, bool inside) {
     for (double reach = 3; reach < kReach; reach *= 1.25)
-      for (int k = 0; k < 24; ++k) {
-        const double angle = 2 * kPi * k / 24;
+      for (int k = 0; k < kDirections; ++k) {
+        const double angle = 2 * kPi * k / kDirections;
         box.center = target + reach * Point2(std::cos(angle), std::sin(angle));
         if ((inside ? IsFreeInPiece(box) : IsFreeOutside(box)) && PutLeader(box, target, inside)) return box;
       }
@@ -168,7 +170,7 @@ class Labeller {
           const Point2 center = home_ + away * piece_.label_radius * Point2(std::cos(angle), std::sin(angle));
           if (PutIfFree(label, center, scale)) return;
         }
-    PutWithLeader(label, home_);
+    PutWithLeader(label, {home_});
   }
 
   // The longest arrow that has room, near the name.
@@ -219,7 +221,7 @@ class Labeller {
       const Point2 at = placed_.placement(point.at[run.side]);
       const Point2 inward = -placed_.Turned(point.outward[run.side]);
       Label label{{{std::to_string(point.number), {}, 1}}, 2.4};
-      if (!PutBeside(label, at, inward)) PutWithLeader(label, at + 1.2 * inward);
+      if (!PutBeside(label, at, inward)) PutWithLeader(label, {at + 1.2 * inward});
     }
   }
 
@@ -251,8 +253,12 @@ class Labeller {
         }
     }
     // Not to the middle, where a match point may be.
-    const auto [at, along] = AtLength(run.points, 0.4 * length);
-    PutWithLeader(label, at + 0.2 * Point2(-along.y(), along.x()));
+    std::vector<Point2> targets;
+    for (double t : {0.4, 0.62, 0.22, 0.8, 0.1, 0.9}) {
+      const auto [at, along] = AtLength(run.points, t * length);
+      targets.push_back(at + 0.2 * Point2(-along.y(), along.x()));
+    }
+    PutWithLeader(label, targets);
   }
 
   void AddFold(const Fold& fold) {
@@ -269,7 +275,7 @@ class Labeller {
             if (PutIfFree(label, at + side * (height + away) * Point2(-along.y(), along.x()), scale)) return;
           }
     }
-    PutWithLeader(label, AtLength(line, length / 2).first);
+    PutWithLeader(label, {AtLength(line, length / 2).first, AtLength(line, length / 3).first});
   }
 
   const Pattern& pattern_;
