@@ -12,7 +12,9 @@
 #include "pattern/pattern_steps.h"
 #include "pattern/surface/charts_for_pattern.h"
 #include "pattern/surface/smooth_seams.h"
+#include "pattern/surface/symmetric_mesh.h"
 #include "pattern/surface/symmetry.h"
+#include "pattern/texts.h"
 #include "surface/cut.h"
 #include "surface/make_charts.h"
 #include "surface/straighten.h"
@@ -65,13 +67,12 @@ double LongestSide(const SurfaceGraph<SurfaceMesh>& surface) {
 
 // A model that is its own mirror image gets pieces in mirrored pairs.
 void MakeSymmetric(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, double done,
-                   Progress& progress, ChartIds& ids, SeamMask& seams, KnownFlattenings& known) {
-  const std::optional<MirrorPlane> mirror = FindMirrorPlane(surface);
-  if (!mirror) return;
+                   Progress& progress, const MirrorPlane& mirror, ChartIds& ids, SeamMask& seams,
+                   KnownFlattenings& known) {
   progress.BeginStage("Mirroring charts...", done, done);
-  const bool keep_above = HasShorterSeamsAbove(surface, *mirror, ids);
+  const bool keep_above = HasShorterSeamsAbove(surface, mirror, ids);
   const auto mirror_charts = [&](double bound, ChartIds& charts) {
-    return MirrorCharts(surface, *mirror, keep_above, bound, progress, charts);
+    return MirrorCharts(surface, mirror, keep_above, bound, progress, charts);
   };
   ChartIds mirrored = ids;
   if (!mirror_charts(params.StretchBound(), mirrored)) return;
@@ -89,7 +90,7 @@ void MakeSymmetric(const SurfaceGraph<SurfaceMesh>& surface, const Params& param
   mirrored = cut;
   if (!mirror_charts(looser.StretchBound(), mirrored)) return;
   ChartCutter<SurfaceMesh>(surface, uncut, progress).Run(mirrored, new_seams, flat);
-  MirrorDarts(surface, *mirror, keep_above, cut, cut_seams, mirrored, new_seams);
+  MirrorDarts(surface, mirror, keep_above, cut, cut_seams, mirrored, new_seams);
   DropIneffectiveSeams(surface, new_seams);
   SplitAndCompact(surface, mirrored, &new_seams);
   flat = KnownFlattenings();
@@ -99,55 +100,112 @@ void MakeSymmetric(const SurfaceGraph<SurfaceMesh>& surface, const Params& param
   progress.Log("The model is symmetric: its pieces are made in mirrored pairs.");
 }
 
+// All but scale and piece_of_face. `symmetric`: the mesh, where it is its own mirror image.
+PatternResult PatternOfMesh(const SurfaceData& mesh, const SymmetricMesh* symmetric, const Params& params,
+                            double scale, Progress& progress) {
+  const Workspace work(mesh);
+  const auto& surface = work.Surface();
+  PatternResult result;
+  ChartIds ids;
+  SeamMask seams;
+  KnownFlattenings known;
+  constexpr double kChartsShare = 0.6, kFlatShare = 0.75;
+  MakeCharts(surface, params, kChartsShare, progress, ids, seams, known, result.report);
+  if (symmetric != nullptr)
+    MakeSymmetric(surface, params, kChartsShare, progress, ExactMirrorPlane(*symmetric, surface), ids, seams,
+                  known);
+  progress.BeginStage("Flattening charts...", kChartsShare, kFlatShare);
+  const auto flatten = [&](const SurfaceData& data, const Workspace& ready, const KnownFlattenings& flat) {
+    const double to_mm = scale * LongestSide(data) / LongestSide(ready.Surface());
+    ChartsForPattern charts(ready.Surface(), params, to_mm, progress);
+    charts.Flatten(ids, seams, flat);
+    return charts.Take(ids, seams, data, scale, ready.SourceFaces());
+  };
+  FlatCharts charts;
+  if (params.material == PatternMaterial::kFabric) {
+    const SurfaceData smooth = WithSmoothSeams(mesh, surface, seams);
+    charts = flatten(smooth, Workspace(smooth), KnownFlattenings());
+  } else {
+    charts = flatten(mesh, work, known);
+  }
+  result.pattern = PatternOfCharts(std::move(charts), params, progress, kFlatShare, 1);
+  result.report.seam_length = SeamLength(surface, seams);
+  return result;
+}
+
+void FillPieceOfFace(size_t face_count, Pattern& pattern) {
+  pattern.piece_of_face.assign(face_count, -1);
+  for (const Piece& piece : pattern.pieces)
+    for (int f : piece.flat.face) pattern.piece_of_face[f] = piece.id;
+}
+
+// From the faces of a symmetric mesh to those of the one it was made of.
+void ToSourceFaces(const SurfaceData& mesh, const SymmetricMesh& symmetric, const MirrorPlane& mirror,
+                   const std::vector<int>& source_face, Pattern& pattern) {
+  const std::vector<int> piece_of_symmetric = pattern.piece_of_face;
+  for (Piece& piece : pattern.pieces)
+    for (int& f : piece.flat.face) f = symmetric.source_face[f];
+  FillPieceOfFace(mesh.faces.size(), pattern);
+  // The faces of the other half that are nobody's nearest image are where their own image's image is.
+  std::vector<int> image_in_symmetric(mesh.faces.size(), -1);
+  for (int f = 0; f < symmetric.half; ++f) image_in_symmetric[symmetric.source_face[f]] = f + symmetric.half;
+  for (size_t f = 0; f < source_face.size(); ++f) {
+    int& piece = pattern.piece_of_face[source_face[f]];
+    const int g = mirror.image[f];
+    if (piece >= 0 || g < 0 || image_in_symmetric[source_face[g]] < 0) continue;
+    piece = piece_of_symmetric[image_in_symmetric[source_face[g]]];
+  }
+  // And what is left is in between: with a neighbour.
+  for (bool changed = true; changed;) {
+    changed = false;
+    std::vector<int> at_vertex(mesh.vertices.size(), -1);
+    for (size_t f = 0; f < mesh.faces.size(); ++f)
+      for (int v : mesh.faces[f])
+        if (pattern.piece_of_face[f] >= 0) at_vertex[v] = pattern.piece_of_face[f];
+    for (size_t f = 0; f < mesh.faces.size(); ++f)
+      for (int v : mesh.faces[f])
+        if (pattern.piece_of_face[f] < 0 && at_vertex[v] >= 0) {
+          pattern.piece_of_face[f] = at_vertex[v];
+          changed = true;
+        }
+  }
+}
+
 }  // namespace
 
 PatternResult MakePattern(const SurfaceData& mesh, const Params& params, Progress& progress) {
-  const Workspace work(mesh);
-  PatternResult result;
   const Params material = ForMaterial(params);
+  const Workspace work(mesh);
   constexpr double kMillimetresPerInch = 25.4;
   const double unit = params.units == LengthUnit::kInch ? kMillimetresPerInch : 1;
   const double model_side = LongestSide(mesh);
   const double side = params.size > 0 ? params.size * unit : model_side * unit;
   constexpr double kSmallest = 1, kLargest = 1e5;  // mm
   if (!(side >= kSmallest && side <= kLargest))
-    throw Error("The finished object would be " + std::to_string(side) +
-                " mm long. Give the size that it is to have in `size`, from 1 mm to 100 m.");
-
-  ChartIds ids;
-  SeamMask seams;
-  KnownFlattenings known;
-  constexpr double kChartsShare = 0.6, kFlatShare = 0.75;
-  MakeCharts(work.Surface(), material, kChartsShare, progress, ids, seams, known, result.report);
-  if (params.target_charts == 0)
-    MakeSymmetric(work.Surface(), material, kChartsShare, progress, ids, seams, known);
-  progress.BeginStage("Flattening charts...", kChartsShare, kFlatShare);
+    throw Error("The finished object would be " + LengthText(side) +
+                " long. Give the size that it is to have in `size`, from 1 mm to 100 m.");
   const double scale = side / model_side;
-  const auto flatten = [&](const SurfaceData& data, const Workspace& ready, const KnownFlattenings& flat) {
-    const double to_mm = scale * LongestSide(data) / LongestSide(ready.Surface());
-    ChartsForPattern charts(ready.Surface(), material, to_mm, progress);
-    charts.Flatten(ids, seams, flat);
-    return charts.Take(ids, seams, data, scale, ready.SourceFaces());
-  };
-  FlatCharts charts;
-  if (params.material == PatternMaterial::kFabric) {
-    const SurfaceData smooth = WithSmoothSeams(mesh, work.Surface(), seams);
-    charts = flatten(smooth, Workspace(smooth), KnownFlattenings());
+
+  // A symmetric model becomes exactly so, for pieces in mirrored pairs. Its texture would not fit that, and a
+  // number of charts that was asked for might not be met.
+  std::optional<MirrorPlane> mirror;
+  if (params.target_charts == 0 && !params.print_texture) mirror = FindMirrorPlane(work.Surface());
+  PatternResult result;
+  if (mirror) {
+    const SymmetricMesh symmetric = MakeSymmetricMesh(mesh, work.Surface(), work.SourceFaces(), *mirror);
+    result = PatternOfMesh(symmetric.mesh, &symmetric, material, scale, progress);
+    FillPieceOfFace(symmetric.mesh.faces.size(), result.pattern);
+    ToSourceFaces(mesh, symmetric, *mirror, work.SourceFaces(), result.pattern);
   } else {
-    charts = flatten(mesh, work, known);
+    result = PatternOfMesh(mesh, nullptr, material, scale, progress);
+    FillPieceOfFace(mesh.faces.size(), result.pattern);
   }
-  result.pattern = PatternOfCharts(std::move(charts), material, progress, kFlatShare, 1);
-  Pattern& pattern = result.pattern;
-  pattern.scale = scale;
-  pattern.piece_of_face.assign(mesh.faces.size(), -1);
-  for (const Piece& piece : pattern.pieces)
-    for (int f : piece.flat.face) pattern.piece_of_face[f] = piece.id;
+  result.pattern.scale = scale;
   Report& report = result.report;
-  report.charts = static_cast<int>(pattern.pieces.size());
+  report.charts = static_cast<int>(result.pattern.pieces.size());
   report.unassigned_faces = 0;
-  report.seam_length = SeamLength(work.Surface(), seams);
   report.darts = 0;
-  for (const Piece& piece : pattern.pieces) *report.darts += static_cast<int>(piece.darts.size());
+  for (const Piece& piece : result.pattern.pieces) *report.darts += static_cast<int>(piece.darts.size());
   return result;
 }
 

@@ -68,11 +68,16 @@ Eigen::Vector3d MirroredNormal(const MirrorPlane& mirror, const Eigen::Vector3d&
   return n - 2 * mirror.normal.dot(n) * mirror.normal;
 }
 
-// The share of the area that has a mirror image, of every `stride`-th face. With `better`, also the plane
-// that fits the pairs.
-double ShareMirrored(const Surface& surface, const FaceFinder& finder, const MirrorPlane& mirror, int stride,
-                     MirrorPlane* better) {
-  double good = 0, all = 0;
+struct Likeness {
+  double share = 0;  // of the area that has a mirror image
+  double apart = 0;  // mean distance of the middles of faces to those of their images, in mean edges
+  double Score() const { return share - 0.1 * apart; }
+};
+
+// Of every `stride`-th face. With `better`, also the plane that fits the pairs.
+Likeness LikenessOf(const Surface& surface, const FaceFinder& finder, const MirrorPlane& mirror, int stride,
+                    MirrorPlane* better) {
+  double good = 0, all = 0, apart = 0;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (int f = 0; f < surface.FaceCount(); f += stride) {
@@ -81,9 +86,13 @@ double ShareMirrored(const Surface& surface, const FaceFinder& finder, const Mir
     const int g = finder.Find(p, MirroredNormal(mirror, surface.Normal(f)));
     if (g < 0) continue;
     // Along the surface the triangles may lie as they like.
-    constexpr double kOff = 0.35;  // of an edge's length: noise of 5 % and coarse curved faces are within
+    constexpr double kOff = 0.35;   // of an edge's length: noise of 5 % and coarse curved faces are within
+    constexpr double kApart = 0.8;  // of an edge's length: beyond a border there is no image
+    const double distance = (p - surface.Centroid(g)).norm() / finder.MeanEdge();
+    if (distance > kApart) continue;
     if (std::abs(surface.Normal(g).dot(p - surface.Centroid(g))) > kOff * finder.MeanEdge()) continue;
     good += surface.Area(f);
+    apart += surface.Area(f) * distance;
     if (better == nullptr) continue;
     const Eigen::Vector3d d = surface.Centroid(f) - surface.Centroid(g);
     spread += surface.Area(f) * d * d.transpose();
@@ -94,7 +103,8 @@ double ShareMirrored(const Surface& surface, const FaceFinder& finder, const Mir
     better->normal = axes.eigenvectors().col(2);
     better->offset = better->normal.dot(middle / good);
   }
-  return all > 0 ? good / all : 0;
+  if (!(good > 0)) return {};
+  return {good / all, apart / good};
 }
 
 // Parts of charts that hang together with the rest of theirs no more go to the neighbour with most border.
@@ -145,25 +155,24 @@ std::optional<MirrorPlane> FindMirrorPlane(const Surface& surface) {
   // Planes across the main axes; those of a cube or a ball are arbitrary, so those of the coordinates too.
   const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors();
   constexpr int kSamples = 3000, kRefinements = 8;
-  constexpr double kLikely = 0.5, kMirrored = 0.96;
+  constexpr double kLikely = 0.5, kMirrored = 0.99;
   const int stride = std::max(1, surface.FaceCount() / kSamples);
   std::optional<MirrorPlane> best;
-  double best_share = kMirrored;
+  double best_score = 0;
   for (int k = 0; k < 6; ++k) {
     MirrorPlane mirror;
     mirror.normal = k < 3 ? Eigen::Vector3d(axes.col(k)) : Eigen::Vector3d(Eigen::Vector3d::Unit(k - 3));
     mirror.offset = mirror.normal.dot(middle);
-    double share = 0;
     for (int step = 0; step < kRefinements; ++step) {
       MirrorPlane better;
-      share = ShareMirrored(surface, finder, mirror, stride, &better);
-      if (share < kLikely && step > 2) break;
+      const Likeness likeness = LikenessOf(surface, finder, mirror, stride, &better);
+      if (!(likeness.share > 0) || (likeness.share < kLikely && step > 2)) break;
       mirror = better;
     }
-    share = ShareMirrored(surface, finder, mirror, stride, nullptr);
+    const Likeness likeness = LikenessOf(surface, finder, mirror, stride, nullptr);
     constexpr double kClearly = 1e-3;  // of equally good planes the first
-    if (share < best_share + (best ? kClearly : 0)) continue;
-    best_share = share;
+    if (likeness.share < kMirrored || (best && likeness.Score() < best_score + kClearly)) continue;
+    best_score = likeness.Score();
     best = mirror;
   }
   if (!best) return best;

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Symmetric models get mirrored pairs of pieces, also when their vertices are noisy.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "dcharts.h"
+#include "pattern/pattern.h"
+#include "pattern/surface/smooth_seams.h"
+#include "pattern/surface/symmetric_mesh.h"
+#include "pattern/surface/symmetry.h"
+#include "shapes.h"
+#include "surface_fixture.h"
+
+namespace dcharts {
+namespace {
+
+using test::TestSurface;
+
+// Every vertex off its place by up to 5 % of the mean edge in each direction.
+SurfaceData Noisy(SurfaceData mesh) {
+  double edge = 0;
+  for (const auto& f : mesh.faces) {
+    const auto &a = mesh.vertices[f[0]], &b = mesh.vertices[f[1]];
+    edge += std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) / static_cast<double>(mesh.faces.size());
+  }
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> noise(-0.05 * edge, 0.05 * edge);
+  for (auto& v : mesh.vertices)
+    for (double& x : v) x += noise(random);
+  return mesh;
+}
+
+// The disk with one side's rim drawn out: no mirror image across x.
+SurfaceData Lopsided(SurfaceData mesh) {
+  for (auto& v : mesh.vertices) {
+    const double x = v[0], y = v[1];
+    v[0] += 0.4 * std::max(0.0, x) * (1 + y);
+    v[1] += 0.3 * x * x;
+    v[2] += 0.2 * x * y + 0.15 * x * x * x;
+  }
+  return mesh;
+}
+
+TEST(PatternSymmetry, FindsThePlaneOfATeddyAlsoWithNoise) {
+  for (const bool noisy : {false, true}) {
+    const TestSurface surface(noisy ? Noisy(shapes::Plush(32)) : shapes::Plush(32));
+    const auto mirror = FindMirrorPlane(*surface);
+    ASSERT_TRUE(mirror.has_value());
+    double best = 0;  // the bear stands upright: left and right are along one of the axes
+    for (int d = 0; d < 3; ++d) best = std::max(best, std::abs(mirror->normal[d]));
+    EXPECT_GT(best, 0.999);
+  }
+}
+
+TEST(PatternSymmetry, FindsNoneWhereThereIsNone) {
+  EXPECT_FALSE(FindMirrorPlane(*TestSurface(Lopsided(shapes::Disk(16)))).has_value());
+}
+
+TEST(PatternSymmetry, ASymmetricMeshIsItsOwnImage) {
+  const SurfaceData data = Noisy(shapes::Plush(32));
+  const TestSurface surface(data);
+  const auto mirror = FindMirrorPlane(*surface);
+  ASSERT_TRUE(mirror.has_value());
+  std::vector<int> faces;
+  for (int f = 0; f < surface->FaceCount(); ++f) faces.push_back(f);
+  const SymmetricMesh symmetric = MakeSymmetricMesh(data, *surface, faces, *mirror);
+  ASSERT_EQ(symmetric.mesh.faces.size(), 2u * symmetric.half);
+  ASSERT_EQ(symmetric.source_face.size(), symmetric.mesh.faces.size());
+  const TestSurface again(symmetric.mesh);
+  const MirrorPlane exact = ExactMirrorPlane(symmetric, *again);
+  int borders = 0;
+  for (int f = 0; f < again->FaceCount(); ++f) {
+    EXPECT_LT((exact.Mirrored(again->Centroid(f)) - again->Centroid(exact.image[f])).norm(), 1e-9);
+    EXPECT_NEAR(again->Area(f), again->Area(exact.image[f]), 1e-12);
+    for (int h = 3 * f; h < 3 * f + 3; ++h) borders += again->Opposite(h) < 0;
+  }
+  EXPECT_EQ(borders, 0);  // closed, as the bear is
+}
+
+TEST(PatternSymmetry, PiecesComeInPairsAndTheCountOnTheSheetIsRight) {
+  for (const bool noisy : {false, true}) {
+    const SurfaceData bear = noisy ? Noisy(shapes::Plush(32)) : shapes::Plush(32);
+    Params params;
+    params.size = 300;
+    params.merge_congruent = true;
+    Progress progress;
+    const Pattern pattern = MakePattern(bear, params, progress).pattern;
+    int mirrored = 0, counted = 0;
+    for (const Piece& piece : pattern.pieces) {
+      mirrored += piece.mirrored;
+      if (piece.drawn) counted += piece.copies + piece.mirror_copies;
+      EXPECT_EQ(piece.drawn, piece.group == piece.id);
+    }
+    EXPECT_GE(mirrored, 1);
+    EXPECT_EQ(counted, static_cast<int>(pattern.pieces.size()));
+    EXPECT_LT(pattern.largest_ease, 0.01);
+    for (int piece : pattern.piece_of_face) EXPECT_GE(piece, 0);
+  }
+}
+
+TEST(PatternSymmetry, ATextureKeepsTheModelAsItIs) {
+  Params params;
+  params.size = 300;
+  params.print_texture = true;
+  Progress progress;
+  const SurfaceData torus = shapes::Torus(24);
+  const Pattern pattern = MakePattern(torus, params, progress).pattern;
+  std::vector<int> seen(torus.faces.size(), 0);
+  for (const Piece& piece : pattern.pieces)
+    for (int f : piece.flat.face) ++seen[f];
+  for (int count : seen) EXPECT_EQ(count, 1);
+}
+
+TEST(PatternSmoothSeams, TeethBecomeAStraightLineOnASheet) {
+  const SurfaceData grid = shapes::Grid(20, 20);
+  const TestSurface surface(grid);
+  // The border between the charts goes up in steps of a cell.
+  const ChartIds ids = surface.Paint([](const std::array<double, 3>& p) {
+    const double x = p[0] + 0.4 * (p[1] - 0.5);
+    return std::floor(x * 20) < 10 ? 0 : 1;
+  });
+  const SeamMask seams = ChartBorders(*surface, ids);
+  const SurfaceData smooth = WithSmoothSeams(grid, *surface, seams);
+  const TestSurface after(smooth);
+  EXPECT_LT(SeamLength(*after, seams), 0.9 * SeamLength(*surface, seams));
+  double area = 0;
+  for (int f = 0; f < after->FaceCount(); ++f) {
+    area += after->Area(f);
+    EXPECT_GT(after->Normal(f).z(), 0.99);  // none turned over
+  }
+  EXPECT_NEAR(area, 1, 1e-9);
+  for (size_t v = 0; v < grid.vertices.size(); ++v)
+    EXPECT_TRUE(grid.vertices[v][0] > 1e-9 || smooth.vertices[v] == grid.vertices[v]);  // the border stays
+}
+
+}  // namespace
+}  // namespace dcharts
