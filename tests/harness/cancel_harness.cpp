@@ -21,11 +21,13 @@ int g_cancel_at = 0;  // 0 = never
 
 bool Callback(const int /*percent*/, const char* /*text*/) { return ++g_calls != g_cancel_at; }
 
-/// `seam_layer` turns that parameter on where the filter has it.
+/// `seam_layer` turns that parameter on where the filter has it. A pattern is made 300 mm long: as small as
+/// the test mesh is, pieces would be narrower than the seam allowance.
 RichParameterList ParametersOf(const Plugin& plugin, QAction* filter, const MeshDocument& document,
                                bool seam_layer) {
   RichParameterList parameters = plugin.Parameters(filter, document);
   if (seam_layer && parameters.hasParameter("seam_layer")) parameters.setValue("seam_layer", BoolValue(true));
+  if (parameters.hasParameter("size")) parameters.setValue("size", FloatValue(300));
   return parameters;
 }
 
