@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "common/pi.h"
+#include "planar/flatten.h"
 #include "surface_fixture.h"
 
 namespace dcharts {
@@ -315,6 +316,30 @@ TEST(Cut, FlatAndDevelopableChartsGetNoDarts) {
   for (const SurfaceData& mesh : {shapes::Grid(10, 10), shapes::Disk(8), shapes::OpenCylinder(24)})
     for (const Params& params : {Params(), ByFittingError()})
       EXPECT_EQ(CutOne(TestSurface(mesh), params).darts, 0);
+}
+
+TEST(Cut, ChartsKeepWithinMaxStretchWhateverDartsGoBy) {
+  const TestSurface surface(shapes::SphericalCap(16, 2));
+  for (DartMethod method : {DartMethod::kFittingError, DartMethod::kMeasuredStretch})
+    for (double longest : {0.0, 100.0}) {
+      Params params;
+      params.dart_by = method;
+      params.max_dart_percent = longest;
+      params.max_stretch = 1.005;
+      const CutResult result = CutOne(surface, params);
+      ExpectWellFormed(surface, result);
+      for (const ChartPatch& patch : Patches(surface, result))
+        EXPECT_LE(Flatten(patch.mesh).l2_stretch, 1.005 + 1e-4);
+      if (longest == 0) {
+        EXPECT_EQ(result.darts, 0);
+        EXPECT_GT(ChartCount(result.ids), 1);
+      }
+      params.max_stretch = 0;
+      EXPECT_EQ(ChartCount(CutOne(surface, params).ids), 1);
+      params.max_stretch = 1.005;
+      params.target_charts = 1;
+      EXPECT_EQ(ChartCount(CutOne(surface, params).ids), 1);
+    }
 }
 
 TEST(Cut, BordersBetweenChartsAreSeams) {

@@ -37,8 +37,9 @@ class ChartCutter {
     progress_.Update(0.3);
     JoinLoops(ids, seams);
     progress_.Update(0.6);
-    const int darts = params_.dart_by == DartMethod::kMeasuredStretch ? CutByStretch(ids, seams, known)
-                                                                      : CutByFittingError(ids, seams);
+    const bool by_stretch = params_.dart_by == DartMethod::kMeasuredStretch;
+    int darts = by_stretch ? 0 : CutByFittingError(ids, seams);
+    if (by_stretch || MayPart()) darts += CutByStretch(ids, seams, known);
     DropIneffectiveSeams(surface_, seams);
     return darts;
   }
@@ -88,10 +89,13 @@ class ChartCutter {
     }
   }
 
-  // Darts where the flattened chart is stretched; without a number of charts to keep to, a chart that is
-  // still above the bound is parted.
+  // Without a number of charts to keep to, a chart above the bound on its stretch is parted.
+  bool MayPart() const { return params_.max_stretch > 0 && params_.target_charts == 0; }
+
+  // Darts where the flattened chart is stretched, if they go by that; a chart that is still above the bound
+  // is parted, if it may be.
   int CutByStretch(ChartIds& ids, SeamMask& seams, KnownFlattenings& known) {
-    const bool may_part = params_.max_stretch > 0 && params_.target_charts == 0;
+    const bool may_part = MayPart();
     const double bound = params_.StretchBound();
     int count = 0, above = 0;
     std::vector<char> done(surface_.FaceCount(), 0);
@@ -138,7 +142,8 @@ class ChartCutter {
     DartGoal goal;
     goal.l2_stretch = bound;
     goal.linf_stretch = kWorstStretch;
-    goal.longest = params_.max_dart_percent / 100 * patch.Diagonal();
+    if (params_.dart_by == DartMethod::kMeasuredStretch)
+      goal.longest = params_.max_dart_percent / 100 * patch.Diagonal();
     goal.unit = std::sqrt(surface_.TotalArea());
     return goal;
   }
