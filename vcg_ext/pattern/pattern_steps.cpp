@@ -22,6 +22,7 @@
 #include "pattern/seam_graph.h"
 #include "pattern/simplify_seams.h"
 #include "pattern/tabs.h"
+#include "pattern/texts.h"
 #include "planar/distortion.h"
 
 namespace dcharts {
@@ -41,11 +42,14 @@ void GiveModelArea(FlatCharts& charts) {
   for (FlatChart& chart : charts.charts) chart.uv *= factor;
 }
 
+// How much the sides of a seam may differ in length, as a share of the 3D length: paper doesn't give.
+double MostEase(PatternMaterial material) { return material == PatternMaterial::kPaper ? 0.001 : 0.01; }
+
 // The two sides of an edge that takes the place of several may differ a little; moving the corners makes up
 // for that. Where it can't within the tolerance, they must differ less from the start.
 Pattern SimplifiedPieces(const FlatCharts& charts, const SeamGraph& graph, const Params& params,
                          const std::function<void()>& poll) {
-  const double promised = params.material == PatternMaterial::kPaper ? 0.0008 : 0.008;
+  const double promised = 0.8 * MostEase(params.material);
   constexpr double kForCollapse = 0.7;  // of the tolerance; the rest is for moving corners
   SimplifyOptions options;
   options.tolerance = kForCollapse * params.simplify_tolerance;
@@ -94,6 +98,17 @@ Pattern PatternOfCharts(FlatCharts charts, const Params& params, Progress& progr
       poll();
     }
     AddTabs(params.tab_width, poll, pattern);
+  }
+
+  std::vector<int> uneven;
+  for (const Seam& seam : pattern.seams)
+    if (seam.ease > MostEase(params.material))
+      for (const SeamSide& side : seam.sides) uneven.push_back(side.piece);
+  if (!uneven.empty()) {
+    std::sort(uneven.begin(), uneven.end());
+    uneven.erase(std::unique(uneven.begin(), uneven.end()), uneven.end());
+    pattern.warnings.push_back("Seams with sides of unequal length, see their ease: on " + PieceList(uneven) +
+                               ".");
   }
 
   progress.BeginStage("Placing pieces...", from + 0.4 * (to - from), to);
