@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every filter of every plugin file, cancelled at every callback, leaves the document as it was: see tests/harness."""
+"""Every filter of every plugin file, cancelled at callback after callback, leaves the document as it was: see tests/harness."""
 import pathlib
 import shutil
 import subprocess

@@ -44,6 +44,7 @@ class ChartParts {
   const std::map<int, double>& Borders(int part) const { return borders_[part]; }
   double Unit() const { return unit_; }  ///< a length of 1 in model units
   int PartOf(int face) const { return part_[face]; }
+  int FineFaceCount() const { return static_cast<int>(part_.size()); }
   const std::vector<int>& FineFaces(int part) const { return fine_faces_[part]; }
 
   ChartPatch CoarsePatch(const std::vector<int>& parts) {

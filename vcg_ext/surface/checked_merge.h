@@ -27,7 +27,10 @@ class CheckedMerger {
   void Run() {
     const double bound = groups_.params.StretchBound();
     Merge(bound);
-    if (greedy_.MayMergeMore() && bound < kNoBound) MergeWithDarts();
+    // Every pair takes several flattenings: too long on large meshes.
+    constexpr int kManyFaces = 50000;
+    if (greedy_.MayMergeMore() && bound < kNoBound && groups_.parts.FineFaceCount() <= kManyFaces)
+      MergeWithDarts();
     if (groups_.params.target_charts > 0 && greedy_.MayMergeMore()) Merge(kNoBound);
     Improve();
   }
