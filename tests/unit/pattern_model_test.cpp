@@ -102,7 +102,8 @@ TEST_P(PatternOfShape, CanBeSewnBackToTheModel) {
     };
     mesh_area += (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
   }
-  EXPECT_NEAR(model / (mesh_area * pattern.scale * pattern.scale), 1, 1e-9);
+  // In fabric a symmetric model is made exactly so: one half of the triangles is replaced.
+  EXPECT_NEAR(model / (mesh_area * pattern.scale * pattern.scale), 1, paper ? 1e-9 : 0.01);
 }
 
 TEST_P(PatternOfShape, HasEveryEdgeInASeamAndEveryFaceInAPiece) {

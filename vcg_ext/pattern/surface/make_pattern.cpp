@@ -186,10 +186,11 @@ PatternResult MakePattern(const SurfaceData& mesh, const Params& params, Progres
                 " long. Give the size that it is to have in `size`, from 1 mm to 100 m.");
   const double scale = side / model_side;
 
-  // A symmetric model becomes exactly so, for pieces in mirrored pairs. Its texture would not fit that, and a
-  // number of charts that was asked for might not be met.
+  // A symmetric model becomes exactly so, for pieces in mirrored pairs. Its texture would not fit that, a
+  // number of charts that was asked for might not be met, and paper is to keep the model as it is.
   std::optional<MirrorPlane> mirror;
-  if (params.target_charts == 0 && !params.print_texture) mirror = FindMirrorPlane(work.Surface());
+  if (params.material == PatternMaterial::kFabric && params.target_charts == 0 && !params.print_texture)
+    mirror = FindMirrorPlane(work.Surface());
   PatternResult result;
   if (mirror) {
     const SymmetricMesh symmetric = MakeSymmetricMesh(mesh, work.Surface(), work.SourceFaces(), *mirror);
