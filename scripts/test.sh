@@ -37,9 +37,10 @@ sanitized_unit_tests() {
   ensure_build -DDCHARTS_BUILD_TESTS=ON -DCMAKE_BUILD_TYPE=RelWithDebInfo -DDCHARTS_SANITIZE=address,undefined \
     -DDCHARTS_PLUGIN_PYMESHLAB=OFF -DDCHARTS_PLUGIN_2025=OFF -DDCHARTS_PLUGIN_2020=OFF
   build_targets unit_tests_2025
-  # Tests that only run the same code again and compare would take most of the time.
+  # Tests that only run the same code again and compare, and the largest shapes, would take most of the time.
   local again='Invariance.*:Threads.*:Cancelling.*:Pipeline/StageByStage.*:Stages.GiveTheSameBytes*'
-  GTEST_FILTER="-$again:Padding.*:Shapes.ShippedFilesAreUpToDate" \
+  local large='*/plush*:*/cad_part_paper:PatternSymmetry.PiecesComeInPairs*:Padding.*'
+  GTEST_FILTER="-$again:$large:Shapes.ShippedFilesAreUpToDate" \
     UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 \
     ctest --test-dir "$build" --output-on-failure -j 2 -R unit_tests_2025
 }
