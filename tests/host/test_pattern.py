@@ -153,8 +153,7 @@ def test_texture_is_printed(tmp_path, plush):
     ms.compute_color_by_function_per_vertex(x='127 + 100 * sin(x)', y='127 + 100 * cos(y)', z='17', a='255')
     ms.dcharts_pattern(size=SIZE, output_file=str(plain))
     ms.dcharts_pattern(size=SIZE, print_texture=True, output_file=str(colored))
-    pieces = len(svg_pieces(plain))
-    assert colored.read_text().count('-clip-1"') == pieces  # a picture for each
+    assert colored.read_text().count('-clip-1"') == len(svg_pieces(colored)) > 0  # a picture for each
     assert plain.read_text().count('-clip-1"') == 0
 
 
