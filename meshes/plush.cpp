@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
 
 #include "implicit_mesh.h"
+#include "implicit_solids.h"
 #include "mesh_builder.h"
 #include "shapes.h"
 
@@ -12,19 +12,6 @@ namespace dcharts::shapes {
 namespace {
 
 using Eigen::Vector3d;
-
-/// About the distance to an ellipsoid: exact on it, right in direction.
-double Ellipsoid(const Vector3d& p, const Vector3d& centre, const Vector3d& radii) {
-  const Vector3d q = (p - centre).cwiseQuotient(radii);
-  const double slope = q.cwiseQuotient(radii).norm();
-  return slope > 0 ? q.norm() * (q.norm() - 1) / slope : -radii.minCoeff();
-}
-
-/// Distance to a rod with round ends of radii ra and rb.
-double Limb(const Vector3d& p, const Vector3d& a, const Vector3d& b, double ra, double rb) {
-  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-  return (p - a - t * (b - a)).norm() - (ra + t * (rb - ra));
-}
 
 /// A sitting teddy bear that looks along +y, its head up along +z, mirrored in x = 0.
 double Teddy(const Vector3d& at) {

@@ -59,11 +59,12 @@ std::vector<Shape> AllShapes() {
   add("cube", "unit cube", Cube(), Closed(0, 6, kExact, Developable::kPiecewise));
   add("sphere", "unit sphere", Sphere(), Closed(0, 4 * kPi, 0.01, Developable::kNo));
   add("torus", "ring", Torus(), Closed(1, 4 * kPi * kPi * 0.4, 0.01, Developable::kNo));
-  // The areas of the next three are those of meshes with sixteen times as many faces.
+  // The areas of the next four are those of meshes with sixteen times as many faces.
   add("double_torus", "two joined rings", DoubleTorus(), Closed(2, 11.179, 0.01, Developable::kNo));
   add("cad_part", "machined part with bore, boss, bolt holes and fillets", CadPart(),
       Closed(3, 7.539, 0.01, Developable::kNo));
   add("plush", "teddy bear", Plush(), Closed(0, 7.375, 0.01, Developable::kNo));
+  add("bishop", "chess bishop with a slit in its head", Bishop(), Closed(0, 4.236, 0.015, Developable::kNo));
   ShapeFacts two = Closed(0, 4 * kPi + 6, 0.02, Developable::kNo);
   two.components = 2;
   two.euler = 4;

@@ -88,6 +88,9 @@ SurfaceData DoubleTorus(int n = 48);
 SurfaceData CadPart(int n = 48);
 /// A teddy bear, 2 units high, genus 0. n cells of the sampling grid over its height, n >= 32.
 SurfaceData Plush(int n = 40);
+/// A chess bishop with a slit in its head, 2 units high, genus 0. n cells of the sampling grid over its
+/// height, n >= 48.
+SurfaceData Bishop(int n = 48);
 
 // --- nasty ones
 /// A sphere and a cube, apart from each other.

@@ -32,7 +32,9 @@ struct Line {
   Polyline points;
   bool closed = false;
   int seam = -1,
-      side = -1;  ///< of a stitch line and of a net: what it is a side of; index into Pattern::seams
+      side = -1;     ///< of a stitch line, a net and a notch: where it is; index into Pattern::seams
+  int match = 0;     ///< of a notch: the number of its match point
+  double angle = 0;  ///< of a fold: by how much the paper bends, degrees; valleys are negative
 };
 
 /// One line of text in Helvetica.

@@ -22,8 +22,7 @@ class LineMaker {
     for (const Tab& tab : placed_.piece->tabs) AddTabFold(tab);
     for (const Ruling& ruling : placed_.piece->rulings)
       Add(Mark::kRuling, placed_.Placed({ruling.from, ruling.to}));
-    for (const Fold& fold : placed_.piece->folds)
-      Add(fold.mountain ? Mark::kMountain : Mark::kValley, placed_.Placed(fold.line));
+    for (const Fold& fold : placed_.piece->folds) AddFold(fold);
     for (const Seam& seam : pattern_.seams)
       for (const MatchPoint& point : seam.match_points) AddNotches(seam, point);
     for (const Polyline& loop : placed_.cut) lines_.push_back({Mark::kCut, loop, true});
@@ -34,6 +33,11 @@ class LineMaker {
   bool IsPaper() const { return pattern_.material == PatternMaterial::kPaper; }
 
   void Add(Mark mark, Polyline points) { lines_.push_back({mark, std::move(points)}); }
+
+  void AddFold(const Fold& fold) {
+    Add(fold.mountain ? Mark::kMountain : Mark::kValley, placed_.Placed(fold.line));
+    lines_.back().angle = fold.mountain ? fold.angle_degrees : -fold.angle_degrees;
+  }
 
   void AddSeams() {
     for (const SideRun& run : placed_.sides) {
@@ -58,11 +62,17 @@ class LineMaker {
       if (seam.sides[s].piece != placed_.piece->id) continue;
       const Point2 at = placed_.placement(point.at[s]), outward = placed_.Turned(point.outward[s]);
       const Point2 along(-outward.y(), outward.x());
+      const std::size_t first = lines_.size();
       if (point.kind == NotchKind::kSingle) {
         AddNotch(at, outward);
       } else {
         AddNotch(at - kBetweenSlits / 2 * along, outward);
         AddNotch(at + kBetweenSlits / 2 * along, outward);
+      }
+      for (std::size_t i = first; i < lines_.size(); ++i) {
+        lines_[i].seam = seam.id;
+        lines_[i].side = static_cast<int>(s);
+        lines_[i].match = point.number;
       }
     }
   }

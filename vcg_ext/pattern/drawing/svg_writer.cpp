@@ -139,6 +139,8 @@ class SvgText {
     if (line.seam >= 0)
       out_ += " data-seam=\"" + std::to_string(line.seam + 1) + "\" data-side=\"" +
               std::to_string(line.side + 1) + "\"";
+    if (line.match > 0) out_ += " data-match=\"" + std::to_string(line.match) + "\"";
+    if (line.angle != 0) out_ += " data-angle=\"" + Number(line.angle) + "\"";
     out_ += "/>\n";
   }
 

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pieces sewn back to the model they are of, by the written SVG alone."""
+import numpy as np
+import pytest
+
+from cases import ROOT, SHARED_MESHES
+from pattern_files import outline_lengths
+from sewing import ROUNDING, Sewn, read_seam_table, read_sides
+
+pymeshlab = pytest.importorskip('pymeshlab')
+pytest.importorskip('pymeshlab_dcharts')
+
+SIZE = 240.0
+MODELS = {
+    'plush': ('Fabric', {}),
+    'torus': ('Fabric', {}),
+    'bishop': ('Fabric', {}),
+    'cad_part': ('Paper', {}),
+    'cylinder': ('Paper', {}),
+    'spot': ('Fabric', {}),
+    'fandisk_9926': ('Paper', {}),
+}
+MOST_EASE = {'Fabric': 0.01, 'Paper': 0.001}
+
+
+def euler_and_border(mesh):
+    """Vertices - edges + faces, and the length of the edges with one face."""
+    faces, corners = mesh.face_matrix(), mesh.vertex_matrix()
+    edges = np.sort(np.vstack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    edges, count = np.unique(edges, axis=0, return_counts=True)
+    ends = corners[edges[count == 1]]
+    return len(np.unique(faces)) - len(edges) + len(faces), np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum()
+
+
+@pytest.fixture(scope='module', params=MODELS)
+def sewn(request, tmp_path_factory):
+    """(name, material, MeshSet, Sewn, seam table)."""
+    name, (material, values) = request.param, MODELS[request.param]
+    file = ROOT / 'meshes' / f'{name}.ply'
+    if not file.exists():
+        file = SHARED_MESHES / f'{name}.ply'
+    if not file.exists():
+        pytest.skip(f'{name}.ply is not in {SHARED_MESHES}')
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(file))
+    svg = tmp_path_factory.mktemp(name) / 'pattern.svg'
+    ms.dcharts_pattern(material=material, size=SIZE, output_file=str(svg), **values)
+    return name, material, ms, Sewn(read_sides(svg)), read_seam_table(svg)
+
+
+def test_every_seam_closes(sewn):
+    """Sides differ in length, and match points in their place, by less than is promised; the table says by how much."""
+    _, material, _, pieces, table = sewn
+    assert set(table) == set(pieces.seams)
+    for number, sides in pieces.seams.items():
+        row = table[number]
+        assert len(sides) == (1 if row.kind == 'edge' else 2)
+        assert {side.piece for side in sides} == set(row.pieces)
+        length, matches = pieces.mismatch(number)
+        assert max(length, matches) < MOST_EASE[material] + ROUNDING * len(sides[0].points) / row.length, f'S{number}'
+        spread = max(s.arcs[-1] for s in sides) - min(s.arcs[-1] for s in sides)
+        printed = row.ease * row.length
+        assert spread == pytest.approx(printed, abs=0.00005 * row.length + 0.05 * row.ease + 100 * ROUNDING), f'S{number}'
+
+
+def test_every_point_of_the_outlines_is_in_a_seam(sewn):
+    """The stretches of a piece make whole outlines: those of the layer. The model's border is the seams with one side."""
+    name, material, ms, pieces, _ = sewn
+    loops = pieces.loops()
+    expected = outline_lengths(ms.mesh(1))
+    assert set(loops) == set(expected)
+    for piece, of_piece in loops.items():
+        perimeter = sum(np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1).sum() for loop in of_piece)
+        assert perimeter == pytest.approx(expected[piece], abs=0.01)
+    points = sum(len(loop) for of_piece in loops.values() for loop in of_piece)
+    assert points == ms.mesh(1).vertex_number()
+    _, border = euler_and_border(ms.mesh(0))
+    scale = SIZE / np.ptp(ms.mesh(0).vertex_matrix(), axis=0).max()
+    edges = sum(sides[0].arcs[-1] for sides in pieces.seams.values() if len(sides) == 1)
+    assert edges == pytest.approx(border * scale, rel=2 * MOST_EASE[material])
+
+
+def test_it_is_the_model_again(sewn):
+    _, _, ms, pieces, _ = sewn
+    assert pieces.euler() == euler_and_border(ms.mesh(0))[0]
