@@ -145,6 +145,40 @@ TEST(PatternTabs, InADartTheyAreNarrowOrMissingButNeverOverlap) {
   EXPECT_EQ(pattern.warnings.size(), 1u);
 }
 
+TEST(PatternTabs, ScissorsGetBetweenThem) {
+  // Two equal pieces with a right-angled notch, sewn to each other along all edges: in the notch both tabs'
+  // ends would be on one line. One edge is too short for a tab.
+  const Polyline notched{{0, 0}, {60, 0}, {60, 30}, {30, 30}, {30, 60}, {1, 60}, {0, 60}};
+  Pattern pattern = PatternOfOutlines({notched, notched});
+  const size_t n = notched.size();
+  for (size_t k = 0; k < n; ++k) {
+    pattern.seams[k].length = 10;
+    pattern.seams[k].sides.push_back(pattern.seams[n + k].sides[0]);
+    pattern.pieces[1].loops[0][k].seam = static_cast<int>(k);
+    pattern.pieces[1].loops[0][k].side = 1;
+  }
+  std::swap(pattern.seams[3].sides[0], pattern.seams[3].sides[1]);  // so that it's the same piece's turn
+  std::swap(pattern.pieces[0].loops[0][3].side, pattern.pieces[1].loops[0][3].side);
+  pattern.seams[5].length = 1;
+  pattern.seams.resize(n);
+  AddTabs(8, {}, pattern);
+  EXPECT_TRUE(pattern.warnings.empty());
+  EXPECT_EQ(pattern.pieces[0].tabs.size() + pattern.pieces[1].tabs.size(), n - 1);
+  for (const Piece& piece : pattern.pieces) {
+    double tab_area = 0;
+    for (const Tab& tab : piece.tabs) {
+      EXPECT_NE(tab.seam, 5);
+      tab_area += std::abs(SignedArea(tab.outline));
+      for (const Tab& other : piece.tabs) {
+        if (&tab == &other) continue;
+        for (const Region& wide : Widened({tab.outline}, 0.1))
+          EXPECT_LT(CommonArea({wide}, {{other.outline}}), 0.15);  // what is around a common corner
+      }
+    }
+    EXPECT_NEAR(AreaOf(piece.cut), 2700 + tab_area, 0.1);
+  }
+}
+
 // A roof of two halves, each 50 by 100 mm, that bends by `degrees` along x = 50.
 FlatCharts Roof(double degrees) {
   SurfaceData mesh = shapes::Grid(10, 10);

@@ -15,6 +15,9 @@
 namespace dcharts {
 namespace {
 
+constexpr double kShortestTab = 1.5;  // mm, along the seam: nobody can fold and glue a shorter one
+constexpr double kClearance = 0.25;   // mm
+
 /// Edges first .. last - 1 of a seam, in its direction: one tab's worth.
 struct Stretch {
   int first = 0, last = 0;
@@ -50,6 +53,12 @@ std::vector<Stretch> StretchesOf(const Pattern& pattern, const Seam& seam, doubl
   return stretches;
 }
 
+// From end to end.
+double LengthOf(const Pattern& pattern, const Seam& seam, const Stretch& stretch) {
+  const Polyline line = SideOf(pattern, seam.sides.front());
+  return (line[stretch.last] - line[stretch.first]).norm();
+}
+
 /// Finds places for tabs, one after the other.
 class TabPlacer {
  public:
@@ -64,18 +73,25 @@ class TabPlacer {
     }
   }
 
-  bool Place(const Seam& seam, const Stretch& stretch, int side, double width) {
+  /// A tab of this width, its ends slanting in by `slant` times that. False: there is no room.
+  bool Place(const Seam& seam, const Stretch& stretch, int side, double width, double slant) {
     Piece& piece = pattern_.pieces[seam.sides[side].piece];
+    const Polyline base = Base(seam.sides[side], stretch);
+    const double length = (base.back() - base.front()).norm();
+    if (length < kShortestTab) return false;
     Tab tab;
     tab.seam = seam.id;
     tab.side = side;
-    tab.outline = Outline(seam.sides[side], stretch, width);
-    if (tab.outline.size() < 4) return false;
-    const Polyline closed = Closed(seam.sides[side], stretch, tab.outline);
-    if (!IsSimple(closed)) return false;
-    Region region{closed};
-    if (CommonArea({region}, taken_[piece.id]) > 0) return false;
-    taken_[piece.id].push_back(std::move(region));
+    // Of a short base the ends would meet: the tab is a lower trapezoid.
+    const double height = std::min(width, 0.4 * length / slant);
+    tab.outline = Outline(base, height, slant * height);
+    const Polyline closed = Closed(base, tab.outline);
+    // Scissors must get between the tab and all else: a little larger it would still have room.
+    const Polyline with_clearance =
+        Closed(base, Outline(base, height + kClearance, std::max(0.0, slant * height - kClearance)));
+    if (!IsSimple(closed) || !IsSimple(with_clearance)) return false;
+    if (CommonArea({{with_clearance}}, taken_[piece.id]) > 0) return false;
+    taken_[piece.id].push_back({closed});
     piece.tabs.push_back(std::move(tab));
     return true;
   }
@@ -96,25 +112,19 @@ class TabPlacer {
     return line;
   }
 
-  // A strip beside the base, its ends cut at 45 degrees. From the base's end to its start.
-  Polyline Outline(const SeamSide& side, const Stretch& stretch, double width) const {
-    const Polyline base = Base(side, stretch);
-    const Point2 chord = base.back() - base.front();
-    const double length = chord.norm();
-    if (!(length > 0)) return {};
-    // Of a short base the ends would meet: the tab is a lower trapezoid.
-    const double height = std::min(width, 0.4 * length);
-    const Point2 along = chord / length, out(along.y(), -along.x());
+  // A strip beside the base, its ends slanting in by `inset`. From the base's end to its start.
+  static Polyline Outline(const Polyline& base, double height, double inset) {
+    const Point2 along = (base.back() - base.front()).normalized(), out(along.y(), -along.x());
     double reach = 0;  // how far the base bulges out
     for (const Point2& p : base) reach = std::max(reach, (p - base.front()).dot(out));
     const double far = height + reach;
-    const Point2 from = OnRegionGrid(base.front() + height * along + far * out),
-                 to = OnRegionGrid(base.back() - height * along + far * out);
+    const Point2 from = OnRegionGrid(base.front() + inset * along + far * out),
+                 to = OnRegionGrid(base.back() - inset * along + far * out);
     return {base.back(), to, from, base.front()};
   }
 
-  Polyline Closed(const SeamSide& side, const Stretch& stretch, const Polyline& outline) const {
-    Polyline closed = Base(side, stretch);
+  static Polyline Closed(const Polyline& base, const Polyline& outline) {
+    Polyline closed = base;
     closed.insert(closed.end(), outline.begin() + 1, outline.end() - 1);
     return closed;
   }
@@ -138,22 +148,27 @@ void AddTabs(double width, const std::function<void()>& poll, Pattern& pattern) 
   int turn = 0;
   for (const Seam& seam : pattern.seams) {
     if (seam.IsBorder() || !(width > 0)) continue;
+    const int sides = static_cast<int>(seam.sides.size());
+    bool has_tab = false, lacks_tab = false;
     for (const Stretch& stretch : StretchesOf(pattern, seam, width)) {
       if (poll) poll();
       bool placed = false;
-      const int sides = static_cast<int>(seam.sides.size());
+      // As wide as asked for on any side, rather than on the one whose turn it is.
       for (const double share : {1.0, 0.7, 0.5, 0.3})
         for (int k = 0; k < sides && !placed; ++k)
-          placed = placer.Place(seam, stretch, (turn + k) % sides, share * width);
+          for (const double slant : {1.0, 2.0})
+            placed = placed || placer.Place(seam, stretch, (turn + k) % sides, share * width, slant);
       ++turn;
-      missing += !placed;
+      has_tab = has_tab || placed;
+      lacks_tab = lacks_tab || (!placed && LengthOf(pattern, seam, stretch) >= kShortestTab);
     }
+    if (lacks_tab || (!has_tab && seam.length >= kShortestTab)) ++missing;
   }
   for (Piece& piece : pattern.pieces) piece.cut = placer.CutOf(piece);
   if (missing > 0)
     pattern.warnings.push_back(std::to_string(missing) +
-                               " stretches of seams have no room for a tab: join them with tape, or take a "
-                               "smaller tab_width.");
+                               " seams have no room for a tab on all of their length: join them with tape "
+                               "there, or take a smaller tab_width.");
 }
 
 }  // namespace dcharts

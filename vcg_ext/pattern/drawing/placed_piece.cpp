@@ -90,11 +90,12 @@ double NearestLength(const Polyline& points, const Point2& p) {
 }
 
 Polyline Part(const Polyline& points, double from, double to) {
+  constexpr double kSamePoint = 1e-3;  // mm
   Polyline part = {AtLength(points, from).first};
   double length = 0;
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
     length += (points[i] - points[i - 1]).norm();
-    if (length > from && length < to) part.push_back(points[i]);
+    if (length > from + kSamePoint && length < to - kSamePoint) part.push_back(points[i]);
   }
   part.push_back(AtLength(points, to).first);
   return part;
