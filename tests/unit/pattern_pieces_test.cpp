@@ -171,7 +171,7 @@ TEST(PatternTabs, ScissorsGetBetweenThem) {
       tab_area += std::abs(SignedArea(tab.outline));
       for (const Tab& other : piece.tabs) {
         if (&tab == &other) continue;
-        for (const Region& wide : Widened({tab.outline}, 0.1))
+        for (const Region& wide : Widened({{tab.outline.rbegin(), tab.outline.rend()}}, 0.1))
           EXPECT_LT(CommonArea({wide}, {{other.outline}}), 0.15);  // what is around a common corner
       }
     }
