@@ -8,7 +8,7 @@ import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
-from cases import ROOT  # noqa: E402
+from cases import ROOT, SHARED_MESHES  # noqa: E402
 from forky import root_folder  # noqa: E402
 from hosts import Meshlab2020, NotHere  # noqa: E402
 from xsession import XSession, missing_tools  # noqa: E402
@@ -55,6 +55,19 @@ def screenshots(tmp_path_factory):
     """Where screenshots go: $DCHARTS_SCREENSHOTS, else a folder of pytest's."""
     folder = os.environ.get('DCHARTS_SCREENSHOTS')
     return pathlib.Path(folder) if folder else tmp_path_factory.mktemp('screenshots')
+
+
+@pytest.fixture(scope='session')
+def model_file():
+    """A function: the file of a model of meshes/ or of the well-known ones, which are not in the project."""
+
+    def find(name):
+        for folder in (ROOT / 'meshes', SHARED_MESHES):
+            if (folder / f'{name}.ply').exists():
+                return folder / f'{name}.ply'
+        pytest.skip(f'{name}.ply is not in {SHARED_MESHES}')
+
+    return find
 
 
 @pytest.fixture(scope='session')

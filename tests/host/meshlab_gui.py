@@ -12,8 +12,10 @@ import numpy as np
 class MeshlabGui:
     """A running MeshLab on an XSession. What it writes to stderr (its log among it) is in `output`."""
 
-    def __init__(self, session, command, mesh, env=None, seconds=90):
+    def __init__(self, session, command, mesh, env=None, seconds=90, first_field=2):
+        """`first_field`: how often Tab is pressed from Apply to a filter's first field; 2 in 2020.09, 3 in 2025.07."""
         self.session = session
+        self.first_field = first_field
         self.home = tempfile.TemporaryDirectory(prefix='dcharts-home-')  # keeps the user's own settings out
         own_env = {'HOME': self.home.name, 'XDG_RUNTIME_DIR': self.home.name}
         self.process = subprocess.Popen([*map(str, command), str(mesh)], env={**session.env, **own_env, **(env or {})},
@@ -56,18 +58,47 @@ class MeshlabGui:
         self.session.keys('Down', 'Return')
         return self.session.wait_for_window(name)
 
-    def apply(self, name, seconds=240):
-        """Applies a filter with its default parameters, waits until MeshLab says it is done, and takes the filter's
-        dialog off the screen."""
+    def apply(self, name, seconds=240, typed=None, saved_as=None):
+        """Applies a filter, waits until MeshLab says it is done, and takes the filter's dialog off the screen. Parameters
+        have their defaults, but for what is typed into fields: {number of the field, from 0: text}, and for the name of
+        a file to write, the last of them: (number of the field, text), given in the dialog behind its button (2020.09
+        does not look at what is typed beside that)."""
         window = self.open_filter(name)
         height = int(re.search(r'Geometry: \d+x(\d+)', self.session.xdotool('getwindowgeometry', window)).group(1))
         assert height <= 1050, f'the dialog of {name} is {height} pixels high: Apply is below a screen of 1080'
         self.session.xdotool('windowactivate', '--sync', window)
         time.sleep(0.3)
+        done = len(self.applied(name))
+        place = 0  # on Apply, which has the focus
+        for field, text in sorted((typed or {}).items()):
+            self._step(self.first_field + field - place)
+            place = self.first_field + field
+            self.session.keys('ctrl+a')
+            self.session.write(text)
+        if saved_as:
+            self._step(self.first_field + saved_as[0] + 1 - place)
+            place = self.first_field + saved_as[0] + 1
+            self.session.keys('space')
+            self.session.wait_for_window('Save')
+            time.sleep(0.5)
+            self.session.keys('ctrl+a')
+            self.session.write(saved_as[1])
+            self.session.keys('Return')
+            time.sleep(1)
+            self.session.xdotool('windowactivate', '--sync', window)
+        self._step(-place)
         self.session.keys('space')
-        self.wait_for_output(f'Applied filter:? {re.escape(name)} in', seconds)
+        self.wait_for_output(f'(?s)(Applied filter:? {re.escape(name)} in.*){{{done + 1}}}', seconds)
         self.session.xdotool('windowunmap', '--sync', window)
         time.sleep(1)
+
+    def _step(self, count):
+        if count:
+            self.session.keys(*(['Tab'] if count > 0 else ['shift+Tab']) * abs(count))
+
+    def applied(self, name):
+        """What MeshLab says of each time that a filter was applied."""
+        return re.findall(f'Applied filter:? {re.escape(name)} in', self.output)
 
     def colors(self):
         """Number of distinct hues that cover part of the screen: saturated pixels, hue in 5-degree steps, each step of

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from cases import ROOT, SHARED_MESHES
 from pattern_files import outline_lengths
 from sewing import ROUNDING, Sewn, read_seam_table, read_sides
 
@@ -12,13 +11,13 @@ pytest.importorskip('pymeshlab_dcharts')
 
 SIZE = 240.0
 MODELS = {
-    'plush': ('Fabric', {}),
-    'torus': ('Fabric', {}),
-    'bishop': ('Fabric', {}),
-    'cad_part': ('Paper', {}),
-    'cylinder': ('Paper', {}),
-    'spot': ('Fabric', {}),
-    'fandisk_9926': ('Paper', {}),
+    'plush': 'Fabric',
+    'torus': 'Fabric',
+    'bishop': 'Fabric',
+    'cad_part': 'Paper',
+    'cylinder': 'Paper',
+    'spot': 'Fabric',
+    'fandisk_9926': 'Paper',
 }
 MOST_EASE = {'Fabric': 0.01, 'Paper': 0.001}
 
@@ -33,18 +32,13 @@ def euler_and_border(mesh):
 
 
 @pytest.fixture(scope='module', params=MODELS)
-def sewn(request, tmp_path_factory):
+def sewn(request, model_file, tmp_path_factory):
     """(name, material, MeshSet, Sewn, seam table)."""
-    name, (material, values) = request.param, MODELS[request.param]
-    file = ROOT / 'meshes' / f'{name}.ply'
-    if not file.exists():
-        file = SHARED_MESHES / f'{name}.ply'
-    if not file.exists():
-        pytest.skip(f'{name}.ply is not in {SHARED_MESHES}')
+    name, material = request.param, MODELS[request.param]
     ms = pymeshlab.MeshSet()
-    ms.load_new_mesh(str(file))
+    ms.load_new_mesh(str(model_file(name)))
     svg = tmp_path_factory.mktemp(name) / 'pattern.svg'
-    ms.dcharts_pattern(material=material, size=SIZE, output_file=str(svg), **values)
+    ms.dcharts_pattern(material=material, size=SIZE, output_file=str(svg))
     return name, material, ms, Sewn(read_sides(svg)), read_seam_table(svg)
 
 
