@@ -102,8 +102,8 @@ TEST_P(PatternOfShape, CanBeSewnBackToTheModel) {
     };
     mesh_area += (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
   }
-  // In fabric a symmetric model is made exactly so: one half of the triangles is replaced.
-  EXPECT_NEAR(model / (mesh_area * pattern.scale * pattern.scale), 1, paper ? 1e-9 : 0.01);
+  // Of fabric seams are smoothed, and of a symmetric model one half takes the place of both.
+  EXPECT_NEAR(model / (mesh_area * pattern.scale * pattern.scale), 1, paper ? 1e-9 : 0.002);
 }
 
 TEST_P(PatternOfShape, HasEveryEdgeInASeamAndEveryFaceInAPiece) {
@@ -149,8 +149,9 @@ INSTANTIATE_TEST_SUITE_P(Shapes, PatternOfShape,
                          ::testing::Values(Case{"cube", false}, Case{"cube", true},
                                            Case{"closed_cylinder", false}, Case{"closed_cylinder", true},
                                            Case{"open_cone", true}, Case{"torus", false},
-                                           Case{"plush", false}, Case{"cad_part", true},
-                                           Case{"plane_with_hole", true}, Case{"two_components", false}),
+                                           Case{"spherical_cap", true}, Case{"plush", false},
+                                           Case{"cad_part", true}, Case{"plane_with_hole", true},
+                                           Case{"two_components", false}),
                          [](const auto& test) {
                            return std::string(test.param.shape) + (test.param.paper ? "_paper" : "_fabric");
                          });

@@ -72,9 +72,17 @@ void ChartsForPattern::Store(const ChartPatch& patch, const Points2& uv) {
 }
 
 void ChartsForPattern::Flatten(ChartIds& ids, SeamMask& seams, const KnownFlattenings& known) {
+  images_.Pair(ids);
   wedge_ = Parameterizer<SurfaceMesh>(surface_, params_, known, progress_).LayFlatApart(ids, seams);
+  const auto follow = [&] {
+    images_.Copy(ids, seams, wedge_);
+    SplitAndCompact(surface_, ids, &seams);
+    images_.Pair(ids);
+  };
+  follow();
   if (params_.material == PatternMaterial::kFabric) {
     const int shortened = ShortenDarts(ids, seams);
+    follow();
     if (shortened > 0) progress_.Log(std::to_string(shortened) + " darts were shortened.");
   }
   DropIneffectiveSeams(surface_, seams);
@@ -167,7 +175,8 @@ int ChartsForPattern::EqualizeAllSeams(ChartIds& ids, SeamMask& seams) {
     {
       PatchExtractor<SurfaceMesh> extractor(surface_, seams);
       for (const auto& faces : FacesOfCharts(ids))
-        if (!done[faces.front()]) charts.push_back({extractor.Extract(faces)});
+        if (!done[faces.front()] && !images_.Follows(faces.front()))
+          charts.push_back({extractor.Extract(faces)});
     }
     if (charts.empty()) break;
     ParallelFor(static_cast<int>(charts.size()), progress_,
@@ -189,10 +198,11 @@ int ChartsForPattern::EqualizeAllSeams(ChartIds& ids, SeamMask& seams) {
         PartChart(chart.patch, Bisect(chart.patch), next_id++, ids, seams);
         continue;
       }
-      left += !chart.seams.whole;
+      if (!chart.seams.whole) left += images_.IsFollowed(chart.patch.faces.front()) ? 2 : 1;
       Store(chart.patch, chart.chart.uv / to_mm_);
       for (int f : chart.patch.faces) done[f] = 1;
     }
+    images_.Copy(ids, seams, wedge_);
     SplitAndCompact(surface_, ids, &seams);
   }
   return left;
@@ -209,11 +219,15 @@ bool ChartsForPattern::IsTooLarge(const Finished& chart) const {
   return !FitsInto(points, PrintableSize(params_.page) - Point2::Constant(2 * around));
 }
 
-int ChartsForPattern::JoinSmallCharts(ChartIds& ids, SeamMask& seams) {
+double ChartsForPattern::UselessArea() const {
   const bool is_fabric = params_.material == PatternMaterial::kFabric;
-  const double width = is_fabric ? 3 * params_.seam_allowance : 2 * params_.tab_width;
+  const double width = (is_fabric ? 3 * params_.seam_allowance : 2 * params_.tab_width) / to_mm_;
+  return width * width;
+}
+
+int ChartsForPattern::JoinSmallCharts(ChartIds& ids, SeamMask& seams) {
   constexpr double kSmallShare = 0.005;  // of the model's area
-  const double least = std::max(width * width / (to_mm_ * to_mm_), kSmallShare * surface_.TotalArea());
+  const double least = std::max(UselessArea(), kSmallShare * surface_.TotalArea());
   constexpr int kMostCharts = 100, kMostNeighbours = 3;  // bound the time
   const auto charts = FacesOfCharts(ids);
   std::vector<double> area(charts.size(), 0);
@@ -235,14 +249,37 @@ int ChartsForPattern::JoinSmallCharts(ChartIds& ids, SeamMask& seams) {
     for (const auto& [id, length] : border) longest_first.push_back({length, id});
     std::sort(longest_first.begin(), longest_first.end());
     if (longest_first.size() > kMostNeighbours) longest_first.resize(kMostNeighbours);
+    int joined_now = 0;
     for (const auto& [length, d] : longest_first)
-      if (TryJoin(c, d, ids, seams)) {
-        ++joined;
-        break;
-      }
+      if (joined_now == 0) joined_now = JoinWithImages(c, d, ids, seams);
+    // A pair is given up only for one that can't be sewn.
+    for (const auto& [length, d] : longest_first)
+      if (joined_now == 0 && images_.IsSymmetric() && area[c] < UselessArea())
+        joined_now = TryJoin(c, d, ids, seams);
+    joined += joined_now;
   }
   SplitAndCompact(surface_, ids, &seams);
+  images_.Pair(ids);
   return joined;
+}
+
+int ChartsForPattern::JoinWithImages(int small, int other, ChartIds& ids, SeamMask& seams) {
+  if (!images_.IsSymmetric()) return TryJoin(small, other, ids, seams);
+  const int small_image = images_.ImageChart(ids, small), other_image = images_.ImageChart(ids, other);
+  if (small_image < 0 || other_image < 0) return 0;
+  if (small_image == other || (small_image == small && other_image == other))
+    return TryJoin(small, other, ids, seams);
+  const ChartIds ids_before = ids;
+  const SeamMask seams_before = seams;
+  const std::vector<FaceUv> wedge_before = wedge_;
+  // One that is its own image goes to both, half by half.
+  const int half = small_image == small ? images_.TakeApart(surface_, small, other, ids, seams) : small_image;
+  if (TryJoin(small, other, ids, seams) && TryJoin(half, other_image, ids, seams))
+    return small_image == small ? 1 : 2;
+  ids = ids_before;
+  seams = seams_before;
+  wedge_ = wedge_before;
+  return 0;
 }
 
 bool ChartsForPattern::TryJoin(int small, int other, ChartIds& ids, SeamMask& seams) {
@@ -261,9 +298,13 @@ bool ChartsForPattern::TryJoin(int small, int other, ChartIds& ids, SeamMask& se
   options.method = params_.method;
   const Flattening flat = dcharts::Flatten(patch.mesh, options, [&] { progress_.Poll(); });
   // A small part may stretch more than the rest: fabric gives, and a speck of paper is no worse than a gap.
-  constexpr double kFabricGives = 1.02, kPaperGives = 1.001;
-  const double bound = std::max(params_.StretchBound(),
-                                params_.material == PatternMaterial::kFabric ? kFabricGives : kPaperGives);
+  // One that nobody can sew or fold is worse than a little more.
+  constexpr double kFabricGives = 0.02, kPaperGives = 0.0003, kForUseless = 3;
+  double area = 0;
+  for (int f : faces) area += ids[f] == small ? surface_.Area(f) : 0;
+  const double gives = params_.material == PatternMaterial::kFabric ? kFabricGives : kPaperGives;
+  const double bound =
+      std::max(params_.StretchBound(), 1 + (area < UselessArea() ? kForUseless * gives : gives));
   if (!flat.ok || !flat.note.empty() || flat.l2_stretch > bound) return false;
   if (!OverlappingPairs(OnGrid(flat.uv, patch.mesh.triangles), 1).empty()) return false;
   seams = std::move(joined);

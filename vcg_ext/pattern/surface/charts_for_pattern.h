@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <functional>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "common/progress.h"
 #include "common/surface_data.h"
 #include "pattern/flat_charts.h"
+#include "pattern/surface/chart_images.h"
 #include "surface/chart_patch.h"
 #include "surface/charts.h"
 #include "surface/known_flattenings.h"
@@ -19,10 +19,11 @@ namespace dcharts {
 /// Lays charts flat for a pattern (Section 4): overlaps are cut off, darts that are not needed are shortened.
 class ChartsForPattern {
  public:
-  /// `to_mm`: millimetres of the finished object per unit of the surface. All must outlive this.
-  ChartsForPattern(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, double to_mm,
+  /// `to_mm`: millimetres of the finished object per unit of the surface; `half`: of a symmetric mesh, or 0.
+  /// All must outlive this.
+  ChartsForPattern(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, double to_mm, int half,
                    Progress& progress)
-      : surface_(surface), params_(params), to_mm_(to_mm), progress_(progress) {}
+      : surface_(surface), params_(params), to_mm_(to_mm), progress_(progress), images_(half) {}
 
   /// `ids` and `seams` change where a chart had to be cut or split, and where a dart is shortened.
   void Flatten(ChartIds& ids, SeamMask& seams, const KnownFlattenings& known);
@@ -50,7 +51,9 @@ class ChartsForPattern {
   FlatChart ChartOf(const ChartPatch& patch) const;
   void Finish(Finished& chart, const std::function<void()>& poll) const;
   bool IsTooLarge(const Finished& chart) const;
+  double UselessArea() const;  // a smaller piece can't be sewn or folded
   bool TryJoin(int small, int other, ChartIds& ids, SeamMask& seams);
+  int JoinWithImages(int small, int other, ChartIds& ids, SeamMask& seams);
   bool SewUpCrossingDarts(const Finished& chart, SeamMask& seams);
   Points2 StoredUv(const ChartPatch& patch) const;
   void Store(const ChartPatch& patch, const Points2& uv);
@@ -59,7 +62,8 @@ class ChartsForPattern {
   const Params& params_;
   double to_mm_;
   Progress& progress_;
-  std::vector<std::array<double, 6>> wedge_;  // per face, at the surface's scale
+  ChartImages images_;
+  std::vector<FaceUv> wedge_;  // per face, at the surface's scale
 };
 
 }  // namespace dcharts

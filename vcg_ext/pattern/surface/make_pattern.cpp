@@ -2,15 +2,15 @@
 #include "dcharts.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "pattern/pattern.h"
 #include "pattern/pattern_steps.h"
+#include "pattern/surface/base_mesh.h"
 #include "pattern/surface/charts_for_pattern.h"
+#include "pattern/surface/data_coordinates.h"
 #include "pattern/surface/smooth_seams.h"
 #include "pattern/surface/symmetric_mesh.h"
 #include "pattern/surface/symmetry.h"
@@ -33,7 +33,7 @@ Params ForMaterial(const Params& params) {
     if (params.max_stretch > 0) material.max_stretch = 1 + kFlatter * (params.StretchBound() - 1);
   } else {
     // Paper does not stretch. What little a chart still has is taken up by folding.
-    constexpr double kStrict = 1.0002;
+    constexpr double kStrict = 1.00005;
     material.method = FlattenMethod::kStretchMinimizing;
     material.max_stretch = std::min(params.StretchBound(), kStrict);
     material.max_dart_percent = std::max(params.max_dart_percent, Params().max_dart_percent);
@@ -41,34 +41,10 @@ Params ForMaterial(const Params& params) {
   return material;
 }
 
-// The longest side of the box of the vertices that faces use.
-double LongestSide(const SurfaceData& mesh) {
-  double longest = 0;
-  for (size_t d = 0; d < 3; ++d) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const auto& face : mesh.faces)
-      for (int v : face) {
-        low = std::min(low, mesh.vertices[v][d]);
-        high = std::max(high, mesh.vertices[v][d]);
-      }
-    longest = std::max(longest, high - low);
-  }
-  return longest;
-}
-
-double LongestSide(const SurfaceGraph<SurfaceMesh>& surface) {
-  Eigen::Vector3d low = surface.Position(0, 0), high = low;
-  for (int h = 0; h < surface.HalfEdgeCount(); ++h) {
-    low = low.cwiseMin(surface.Position(surface.Vertex(h)));
-    high = high.cwiseMax(surface.Position(surface.Vertex(h)));
-  }
-  return (high - low).maxCoeff();
-}
-
 // A model that is its own mirror image gets pieces in mirrored pairs.
-void MakeSymmetric(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, double done,
-                   Progress& progress, const MirrorPlane& mirror, ChartIds& ids, SeamMask& seams,
-                   KnownFlattenings& known) {
+void MakeChartsSymmetric(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, double done,
+                         Progress& progress, const MirrorPlane& mirror, ChartIds& ids, SeamMask& seams,
+                         KnownFlattenings& known) {
   progress.BeginStage("Mirroring charts...", done, done);
   const bool keep_above = HasShorterSeamsAbove(surface, mirror, ids);
   const auto mirror_charts = [&](double bound, ChartIds& charts) {
@@ -76,7 +52,8 @@ void MakeSymmetric(const SurfaceGraph<SurfaceMesh>& surface, const Params& param
   };
   ChartIds mirrored = ids;
   if (!mirror_charts(params.StretchBound(), mirrored)) return;
-  StraightenBorders(surface, params, progress, mirrored);
+  // Faces and their nearest images make teeth.
+  if (!mirror.exact) StraightenBorders(surface, params, progress, mirrored);
   // Cut, which may part charts, and mirrored again with all the cuts. Images of charts stretch a little more
   // than they: they are not to be parted for that.
   Params looser = params, uncut = params;
@@ -93,6 +70,7 @@ void MakeSymmetric(const SurfaceGraph<SurfaceMesh>& surface, const Params& param
   MirrorDarts(surface, mirror, keep_above, cut, cut_seams, mirrored, new_seams);
   DropIneffectiveSeams(surface, new_seams);
   SplitAndCompact(surface, mirrored, &new_seams);
+  if (TooManyCharts(ChartCount(ids), ChartCount(mirrored))) return;
   flat = KnownFlattenings();
   ids = std::move(mirrored);
   seams = std::move(new_seams);
@@ -100,82 +78,42 @@ void MakeSymmetric(const SurfaceGraph<SurfaceMesh>& surface, const Params& param
   progress.Log("The model is symmetric: its pieces are made in mirrored pairs.");
 }
 
-// All but scale and piece_of_face. `symmetric`: the mesh, where it is its own mirror image.
-PatternResult PatternOfMesh(const SurfaceData& mesh, const SymmetricMesh* symmetric, const Params& params,
-                            double scale, Progress& progress) {
-  const Workspace work(mesh);
-  const auto& surface = work.Surface();
+// All but scale and what has to do with the user's faces.
+PatternResult PatternOfMesh(const BaseMesh& base, const Params& params, double scale, Progress& progress) {
+  const auto& surface = base.Surface();
   PatternResult result;
   ChartIds ids;
   SeamMask seams;
   KnownFlattenings known;
   constexpr double kChartsShare = 0.6, kFlatShare = 0.75;
   MakeCharts(surface, params, kChartsShare, progress, ids, seams, known, result.report);
-  if (symmetric != nullptr)
-    MakeSymmetric(surface, params, kChartsShare, progress, ExactMirrorPlane(*symmetric, surface), ids, seams,
-                  known);
+  if (base.Mirror())
+    MakeChartsSymmetric(surface, params, kChartsShare, progress, *base.Mirror(), ids, seams, known);
   progress.BeginStage("Flattening charts...", kChartsShare, kFlatShare);
   const auto flatten = [&](const SurfaceData& data, const Workspace& ready, const KnownFlattenings& flat) {
-    const double to_mm = scale * LongestSide(data) / LongestSide(ready.Surface());
-    ChartsForPattern charts(ready.Surface(), params, to_mm, progress);
+    const double to_mm = scale * DataCoordinates(data, ready.Surface()).Scale();
+    ChartsForPattern charts(ready.Surface(), params, to_mm, base.Half(), progress);
     charts.Flatten(ids, seams, flat);
     return charts.Take(ids, seams, data, scale, ready.SourceFaces());
   };
   FlatCharts charts;
   if (params.material == PatternMaterial::kFabric) {
-    const SurfaceData smooth = WithSmoothSeams(mesh, surface, seams);
+    SurfaceData smooth = WithSmoothSeams(base.Mesh(), surface, seams);
+    if (base.Half() > 0) MirrorFirstHalf(base.Mesh(), base.Half(), smooth);
     charts = flatten(smooth, Workspace(smooth), KnownFlattenings());
   } else {
-    charts = flatten(mesh, work, known);
+    charts = flatten(base.Mesh(), base.Work(), known);
   }
   result.pattern = PatternOfCharts(std::move(charts), params, progress, kFlatShare, 1);
   result.report.seam_length = SeamLength(surface, seams);
   return result;
 }
 
-void FillPieceOfFace(size_t face_count, Pattern& pattern) {
-  pattern.piece_of_face.assign(face_count, -1);
-  for (const Piece& piece : pattern.pieces)
-    for (int f : piece.flat.face) pattern.piece_of_face[f] = piece.id;
-}
-
-// From the faces of a symmetric mesh to those of the one it was made of.
-void ToSourceFaces(const SurfaceData& mesh, const SymmetricMesh& symmetric, const MirrorPlane& mirror,
-                   const std::vector<int>& source_face, Pattern& pattern) {
-  const std::vector<int> piece_of_symmetric = pattern.piece_of_face;
-  for (Piece& piece : pattern.pieces)
-    for (int& f : piece.flat.face) f = symmetric.source_face[f];
-  FillPieceOfFace(mesh.faces.size(), pattern);
-  // The faces of the other half that are nobody's nearest image are where their own image's image is.
-  std::vector<int> image_in_symmetric(mesh.faces.size(), -1);
-  for (int f = 0; f < symmetric.half; ++f) image_in_symmetric[symmetric.source_face[f]] = f + symmetric.half;
-  for (size_t f = 0; f < source_face.size(); ++f) {
-    int& piece = pattern.piece_of_face[source_face[f]];
-    const int g = mirror.image[f];
-    if (piece >= 0 || g < 0 || image_in_symmetric[source_face[g]] < 0) continue;
-    piece = piece_of_symmetric[image_in_symmetric[source_face[g]]];
-  }
-  // And what is left is in between: with a neighbour.
-  for (bool changed = true; changed;) {
-    changed = false;
-    std::vector<int> at_vertex(mesh.vertices.size(), -1);
-    for (size_t f = 0; f < mesh.faces.size(); ++f)
-      for (int v : mesh.faces[f])
-        if (pattern.piece_of_face[f] >= 0) at_vertex[v] = pattern.piece_of_face[f];
-    for (size_t f = 0; f < mesh.faces.size(); ++f)
-      for (int v : mesh.faces[f])
-        if (pattern.piece_of_face[f] < 0 && at_vertex[v] >= 0) {
-          pattern.piece_of_face[f] = at_vertex[v];
-          changed = true;
-        }
-  }
-}
-
 }  // namespace
 
 PatternResult MakePattern(const SurfaceData& mesh, const Params& params, Progress& progress) {
   const Params material = ForMaterial(params);
-  const Workspace work(mesh);
+  BaseMesh base(mesh);
   constexpr double kMillimetresPerInch = 25.4;
   const double unit = params.units == LengthUnit::kInch ? kMillimetresPerInch : 1;
   const double model_side = LongestSide(mesh);
@@ -186,21 +124,15 @@ PatternResult MakePattern(const SurfaceData& mesh, const Params& params, Progres
                 " long. Give the size that it is to have in `size`, from 1 mm to 100 m.");
   const double scale = side / model_side;
 
-  // A symmetric model becomes exactly so, for pieces in mirrored pairs. Its texture would not fit that, a
-  // number of charts that was asked for might not be met, and paper is to keep the model as it is.
-  std::optional<MirrorPlane> mirror;
-  if (params.material == PatternMaterial::kFabric && params.target_charts == 0 && !params.print_texture)
-    mirror = FindMirrorPlane(work.Surface());
-  PatternResult result;
-  if (mirror) {
-    const SymmetricMesh symmetric = MakeSymmetricMesh(mesh, work.Surface(), work.SourceFaces(), *mirror);
-    result = PatternOfMesh(symmetric.mesh, &symmetric, material, scale, progress);
-    FillPieceOfFace(symmetric.mesh.faces.size(), result.pattern);
-    ToSourceFaces(mesh, symmetric, *mirror, work.SourceFaces(), result.pattern);
-  } else {
-    result = PatternOfMesh(mesh, nullptr, material, scale, progress);
-    FillPieceOfFace(mesh.faces.size(), result.pattern);
+  // A texture lies on the triangles of the user's mesh, and a number of charts that was asked for might not
+  // be met by mirrored ones.
+  if (!params.print_texture) {
+    base.Coarsen(params.material);
+    if (params.target_charts == 0) base.FindMirror();
+    base.MakeSymmetric(params.material);
   }
+  PatternResult result = PatternOfMesh(base, material, scale, progress);
+  base.ToUsersFaces(result.pattern);
   result.pattern.scale = scale;
   Report& report = result.report;
   report.charts = static_cast<int>(result.pattern.pieces.size());

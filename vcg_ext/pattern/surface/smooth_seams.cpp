@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "pattern/surface/data_coordinates.h"
+
 namespace dcharts {
 namespace {
 
@@ -89,17 +91,7 @@ class SeamSmoother {
 SurfaceData WithSmoothSeams(const SurfaceData& data, const Surface& surface, const SeamMask& seams) {
   SeamSmoother smoother(surface, seams);
   smoother.Run();
-  // The surface has the data's vertices, moved and scaled: the scale is that of any long distance.
-  const int first = surface.Vertex(0);
-  int far = first;
-  for (int h = 0; h < surface.HalfEdgeCount(); ++h)
-    if ((surface.Position(surface.Vertex(h)) - surface.Position(first)).norm() >
-        (surface.Position(far) - surface.Position(first)).norm())
-      far = surface.Vertex(h);
-  const auto& p = data.vertices[first];
-  const auto& q = data.vertices[far];
-  const double scale = Eigen::Vector3d(q[0] - p[0], q[1] - p[1], q[2] - p[2]).norm() /
-                       (surface.Position(far) - surface.Position(first)).norm();
+  const double scale = DataCoordinates(data, surface).Scale();
   SurfaceData smooth = data;
   for (int v = 0; v < surface.VertexCount(); ++v) {
     const Eigen::Vector3d moved = scale * (smoother.Position(v) - surface.Position(v));

@@ -8,6 +8,8 @@
 #include <map>
 #include <utility>
 
+#include "pattern/surface/data_coordinates.h"
+
 namespace dcharts {
 namespace {
 
@@ -19,7 +21,7 @@ class HalfCutter {
   HalfCutter(std::vector<Eigen::Vector3d> points, std::vector<double> heights)
       : points_(std::move(points)), heights_(std::move(heights)) {}
 
-  void Add(const std::array<int, 3>& face, int source) {
+  void Add(const std::array<int, 3>& face) {
     std::vector<int> above;  // the corners of what is left
     bool any = false;
     for (int k = 0; k < 3; ++k) {
@@ -29,16 +31,12 @@ class HalfCutter {
       if (heights_[v] * heights_[w] < 0) above.push_back(Crossing(v, w));
     }
     if (!any) return;
-    for (size_t k = 1; k + 1 < above.size(); ++k) {
-      faces_.push_back({above[0], above[k], above[k + 1]});
-      sources_.push_back(source);
-    }
+    for (size_t k = 1; k + 1 < above.size(); ++k) faces_.push_back({above[0], above[k], above[k + 1]});
   }
 
   const std::vector<Eigen::Vector3d>& Points() const { return points_; }
   bool OnPlane(int v) const { return heights_[v] == 0; }
   const std::vector<std::array<int, 3>>& Faces() const { return faces_; }
-  const std::vector<int>& Sources() const { return sources_; }
 
  private:
   int Crossing(int v, int w) {
@@ -57,13 +55,26 @@ class HalfCutter {
   std::vector<double> heights_;
   std::map<std::pair<int, int>, int> crossings_;
   std::vector<std::array<int, 3>> faces_;
-  std::vector<int> sources_;
 };
+
+// From the face that is furthest from its image.
+template <class Centroid>
+MirrorPlane PlaneBetween(int half, const Centroid& centroid) {
+  MirrorPlane mirror;
+  double farthest = 0;
+  for (int f = 0; f < half; ++f) {
+    const Eigen::Vector3d p = centroid(f), q = centroid(f + half), d = p - q;
+    if (d.norm() <= farthest) continue;
+    farthest = d.norm();
+    mirror.normal = d / farthest;
+    mirror.offset = mirror.normal.dot(p + q) / 2;
+  }
+  return mirror;
+}
 
 }  // namespace
 
-SymmetricMesh MakeSymmetricMesh(const SurfaceData& data, const Surface& surface,
-                                const std::vector<int>& source_face, const MirrorPlane& mirror) {
+SymmetricMesh MakeSymmetricMesh(const SurfaceData& data, const Surface& surface, const MirrorPlane& mirror) {
   // All in the surface's coordinates, which are the data's moved and scaled.
   std::vector<double> shortest(surface.VertexCount(), std::numeric_limits<double>::infinity());
   for (int h = 0; h < surface.HalfEdgeCount(); ++h)
@@ -81,23 +92,12 @@ SymmetricMesh MakeSymmetricMesh(const SurfaceData& data, const Surface& surface,
   }
   HalfCutter cutter(std::move(points), std::move(heights));
   for (int f = 0; f < surface.FaceCount(); ++f)
-    cutter.Add({surface.Vertex(3 * f), surface.Vertex(3 * f + 1), surface.Vertex(3 * f + 2)}, f);
+    cutter.Add({surface.Vertex(3 * f), surface.Vertex(3 * f + 1), surface.Vertex(3 * f + 2)});
 
-  // Back to the data's coordinates.
-  const int first = surface.Vertex(0);
-  int far = first;
-  for (int h = 0; h < surface.HalfEdgeCount(); ++h)
-    if ((surface.Position(surface.Vertex(h)) - surface.Position(first)).norm() >
-        (surface.Position(far) - surface.Position(first)).norm())
-      far = surface.Vertex(h);
-  const auto in_data = [&](int v) -> Eigen::Vector3d {
-    return {data.vertices[v][0], data.vertices[v][1], data.vertices[v][2]};
-  };
-  const double scale =
-      (in_data(far) - in_data(first)).norm() / (surface.Position(far) - surface.Position(first)).norm();
+  const DataCoordinates to_data(data, surface);
   SymmetricMesh result;
   const auto add_vertex = [&](const Eigen::Vector3d& p) {
-    const Eigen::Vector3d q = in_data(first) + scale * (p - surface.Position(first));
+    const Eigen::Vector3d q = to_data(p);
     result.mesh.vertices.push_back({q.x(), q.y(), q.z()});
     return static_cast<int>(result.mesh.vertices.size()) - 1;
   };
@@ -112,26 +112,29 @@ SymmetricMesh MakeSymmetricMesh(const SurfaceData& data, const Surface& surface,
   for (const auto& [a, b, c] : cutter.Faces()) result.mesh.faces.push_back({here[a], here[b], here[c]});
   for (const auto& [a, b, c] : cutter.Faces()) result.mesh.faces.push_back({there[a], there[c], there[b]});
   result.half = static_cast<int>(cutter.Faces().size());
-  for (int f : cutter.Sources()) result.source_face.push_back(source_face[f]);
-  for (int f : cutter.Sources())
-    result.source_face.push_back(source_face[mirror.image[f] >= 0 ? mirror.image[f] : f]);
   return result;
 }
 
-MirrorPlane ExactMirrorPlane(const SymmetricMesh& symmetric, const Surface& surface) {
-  MirrorPlane mirror;
-  // From the pair of points that are furthest apart.
-  double farthest = 0;
-  for (int f = 0; f < symmetric.half; ++f) {
-    const Eigen::Vector3d d = surface.Centroid(f) - surface.Centroid(f + symmetric.half);
-    if (d.norm() <= farthest) continue;
-    farthest = d.norm();
-    mirror.normal = d / farthest;
-    mirror.offset = mirror.normal.dot(surface.Centroid(f) + surface.Centroid(f + symmetric.half)) / 2;
-  }
-  for (int f = 0; f < 2 * symmetric.half; ++f)
-    mirror.image.push_back(f < symmetric.half ? f + symmetric.half : f - symmetric.half);
+MirrorPlane ExactMirrorPlane(int half, const Surface& surface) {
+  MirrorPlane mirror = PlaneBetween(half, [&](int f) { return surface.Centroid(f); });
+  mirror.exact = true;
+  for (int f = 0; f < 2 * half; ++f) mirror.image.push_back(f < half ? f + half : f - half);
   return mirror;
+}
+
+void MirrorFirstHalf(const SurfaceData& symmetric, int half, SurfaceData& mesh) {
+  const MirrorPlane mirror = PlaneBetween(half, [&](int f) -> Eigen::Vector3d {
+    const auto& [a, b, c] = symmetric.faces[f];
+    return (PositionOf(symmetric, a) + PositionOf(symmetric, b) + PositionOf(symmetric, c)) / 3;
+  });
+  const auto set = [&](int v, const Eigen::Vector3d& p) { mesh.vertices[v] = {p.x(), p.y(), p.z()}; };
+  for (int f = 0; f < half; ++f)
+    for (int k = 0; k < 3; ++k) {
+      // The image of face (a, b, c) is (a, c, b).
+      const int v = mesh.faces[f][k], w = mesh.faces[f + half][(3 - k) % 3];
+      const Eigen::Vector3d p = PositionOf(mesh, v);
+      set(w, v == w ? Eigen::Vector3d(p - mirror.Height(p) * mirror.normal) : mirror.Mirrored(p));
+    }
 }
 
 }  // namespace dcharts

@@ -74,12 +74,51 @@ struct Likeness {
   double Score() const { return share - 0.1 * apart; }
 };
 
+/// The plane that fits pairs of points and the faces that their images are on: Gauss-Newton.
+class PlaneFit {
+ public:
+  explicit PlaneFit(const MirrorPlane& mirror) : mirror_(mirror), u_(mirror.normal.unitOrthogonal()) {
+    v_ = mirror.normal.cross(u_);
+  }
+
+  // `image`: a point of the surface near the mirror image of `p`, with the surface's normal there.
+  void Add(const Eigen::Vector3d& p, const Eigen::Vector3d& image, const Eigen::Vector3d& normal,
+           double weight) {
+    // Along the surface triangles lie as they like: that counts only where nothing else tells.
+    constexpr double kAlong = 0.01;
+    const Eigen::Vector3d apart = mirror_.Mirrored(p) - image;
+    Eigen::Matrix3d turn;  // how the mirrored point moves with the normal, along u and v, and the offset
+    turn.col(0) = -2 * (mirror_.Height(p) * u_ + u_.dot(p) * mirror_.normal);
+    turn.col(1) = -2 * (mirror_.Height(p) * v_ + v_.dot(p) * mirror_.normal);
+    turn.col(2) = 2 * mirror_.normal;
+    const Eigen::RowVector3d across = normal.transpose() * turn;
+    left_ += weight * (across.transpose() * across + kAlong * turn.transpose() * turn);
+    right_ -= weight * (across.transpose() * normal.dot(apart) + kAlong * turn.transpose() * apart);
+  }
+
+  MirrorPlane Better() const {
+    const Eigen::Vector3d step = left_.ldlt().solve(right_);
+    MirrorPlane better;
+    if (!step.allFinite()) return mirror_;
+    better.normal = mirror_.normal + step[0] * u_ + step[1] * v_;
+    const double length = better.normal.norm();
+    better.normal /= length;
+    better.offset = (mirror_.offset + step[2]) / length;
+    return better;
+  }
+
+ private:
+  const MirrorPlane mirror_;
+  Eigen::Vector3d u_, v_;
+  Eigen::Matrix3d left_ = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right_ = Eigen::Vector3d::Zero();
+};
+
 // Of every `stride`-th face. With `better`, also the plane that fits the pairs.
 Likeness LikenessOf(const Surface& surface, const FaceFinder& finder, const MirrorPlane& mirror, int stride,
                     MirrorPlane* better) {
   double good = 0, all = 0, apart = 0;
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  PlaneFit fit(mirror);
   for (int f = 0; f < surface.FaceCount(); f += stride) {
     all += surface.Area(f);
     const Eigen::Vector3d p = mirror.Mirrored(surface.Centroid(f));
@@ -89,20 +128,14 @@ Likeness LikenessOf(const Surface& surface, const FaceFinder& finder, const Mirr
     constexpr double kOff = 0.35;   // of an edge's length: noise of 5 % and coarse curved faces are within
     constexpr double kApart = 0.8;  // of an edge's length: beyond a border there is no image
     const double distance = (p - surface.Centroid(g)).norm() / finder.MeanEdge();
+    if (better != nullptr)
+      fit.Add(surface.Centroid(f), surface.Centroid(g), surface.Normal(g), surface.Area(f));
     if (distance > kApart) continue;
     if (std::abs(surface.Normal(g).dot(p - surface.Centroid(g))) > kOff * finder.MeanEdge()) continue;
     good += surface.Area(f);
     apart += surface.Area(f) * distance;
-    if (better == nullptr) continue;
-    const Eigen::Vector3d d = surface.Centroid(f) - surface.Centroid(g);
-    spread += surface.Area(f) * d * d.transpose();
-    middle += surface.Area(f) * (surface.Centroid(f) + surface.Centroid(g)) / 2;
   }
-  if (better != nullptr && good > 0) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-    better->normal = axes.eigenvectors().col(2);
-    better->offset = better->normal.dot(middle / good);
-  }
+  if (better != nullptr) *better = fit.Better();
   if (!(good > 0)) return {};
   return {good / all, apart / good};
 }
@@ -199,6 +232,11 @@ bool HasShorterSeamsAbove(const Surface& surface, const MirrorPlane& mirror, con
   return seams[1] <= seams[0];
 }
 
+bool TooManyCharts(int before, int mirrored) {
+  constexpr double kMostMore = 1.5;
+  return mirrored > kMostMore * before + 1;
+}
+
 bool MirrorCharts(const Surface& surface, const MirrorPlane& mirror, bool keep_above, double stretch_bound,
                   Progress& progress, ChartIds& ids) {
   const int count = ChartCount(ids);
@@ -237,7 +275,7 @@ bool MirrorCharts(const Surface& surface, const MirrorPlane& mirror, bool keep_a
     for (int f : charts[pair.second]) mirrored[f] = pair.first;
   }
   SplitAndCompact(surface, mirrored);
-  if (ChartCount(mirrored) > 2 * count) return false;
+  if (TooManyCharts(count, ChartCount(mirrored))) return false;
   ids = std::move(mirrored);
   return true;
 }
@@ -262,7 +300,9 @@ void MirrorDarts(const Surface& surface, const MirrorPlane& mirror, bool keep_ab
       if (std::abs(height) > edge && (height > 0) != keep_above) continue;
       for (size_t k = 0; k < dart.arriving.size(); ++k) mark(edge_of(k));
       const int image = mirror.image[edge_of(0) / 3];
-      if (std::abs(height) <= edge || image < 0) continue;
+      if (mirror.exact)
+        for (size_t k = 0; k < dart.arriving.size(); ++k) mark(mirror.ImageOfEdge(edge_of(k)));
+      if (mirror.exact || std::abs(height) <= edge || image < 0) continue;
 
       const ChartPatch other = extractor.Extract(charts[ids[image]]);
       PatchPaths paths(other);

@@ -17,9 +17,13 @@ struct MirrorPlane {
   Eigen::Vector3d normal{1, 0, 0};  ///< unit vector
   double offset = 0;                ///< of the plane along the normal
   std::vector<int> image;           ///< per face the one at its mirror image, -1 where there is none
+  bool exact = false;               ///< the image of every face (a, b, c) is a face (a, c, b), exactly
 
   double Height(const Eigen::Vector3d& p) const { return normal.dot(p) - offset; }
   Eigen::Vector3d Mirrored(const Eigen::Vector3d& p) const { return p - 2 * Height(p) * normal; }
+  int ImageOfEdge(int half_edge) const {
+    return 3 * image[half_edge / 3] + 2 - half_edge % 3;
+  }  ///< when exact
 };
 
 /// The plane that mirrors the surface best, when it does so but for noise: nearly all of its area has a
@@ -30,10 +34,13 @@ std::optional<MirrorPlane> FindMirrorPlane(const SurfaceGraph<SurfaceMesh>& surf
 bool HasShorterSeamsAbove(const SurfaceGraph<SurfaceMesh>& surface, const MirrorPlane& mirror,
                           const ChartIds& ids);
 
+/// Pairs are not worth so many more charts: about half as many again.
+bool TooManyCharts(int before, int mirrored);
+
 /// Gives one half of the surface the mirror images of the other half's charts, so that a pattern has mirrored
 /// pairs. `keep_above`: the half that the normal points to is the one that stays. A chart that meets its own
 /// image at the plane is joined with it where both lie flat within `stretch_bound`. Leaves `ids` alone, and
-/// returns false, when there would be more than twice as many charts.
+/// returns false, when there would be TooManyCharts.
 bool MirrorCharts(const SurfaceGraph<SurfaceMesh>& surface, const MirrorPlane& mirror, bool keep_above,
                   double stretch_bound, Progress& progress, ChartIds& ids);
 

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pattern/surface/base_mesh.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "pattern/surface/coarse_mesh.h"
+#include "pattern/surface/data_coordinates.h"
+#include "pattern/surface/same_shape.h"
+#include "pattern/surface/symmetric_mesh.h"
+#include "surface/denoised_normals.h"
+
+namespace dcharts {
+
+double LongestSide(const SurfaceData& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const auto& face : mesh.faces)
+    for (int v : face) box.extend(PositionOf(mesh, v));
+  return box.sizes().maxCoeff();
+}
+
+void BaseMesh::Take(SurfaceData& here, SurfaceData mesh) {
+  here = std::move(mesh);
+  mesh_ = &here;
+  work_.emplace(here);
+}
+
+void BaseMesh::Coarsen(PatternMaterial material) {
+  std::optional<SurfaceData> coarse = CoarseMesh(*mesh_, Surface(), material);
+  if (coarse) Take(coarse_, std::move(*coarse));
+}
+
+void BaseMesh::MakeSymmetric(PatternMaterial material) {
+  if (!mirror_) return;
+  // Paper is to keep the model as it is, and its pieces are too sensitive for mirrored borders only. Of
+  // fabric, what is smaller than part of an edge is an accident of the triangles; noise is larger at some
+  // vertices.
+  constexpr double kOfSize = 2e-3, kOfEdge = 0.25, kMostOfSize = 6e-3, kOfNoise = 5, kArea = 1e-3;
+  double edge = 0;
+  for (int h = 0; h < Surface().HalfEdgeCount(); ++h) edge += Surface().Length(h) / Surface().HalfEdgeCount();
+  edge *= DataCoordinates(*mesh_, Surface()).Scale();
+  const double size = LongestSide(*mesh_);
+  double distance = std::max(kOfSize * size, std::min(kOfEdge * edge, kMostOfSize * size)) +
+                    kOfNoise * VertexNoise(Surface()) * edge;
+  constexpr double kRounding = 1e-6;
+  const bool is_paper = material == PatternMaterial::kPaper;
+  if (is_paper) distance = kRounding * size;
+  SymmetricMesh symmetric = MakeSymmetricMesh(*mesh_, Surface(), *mirror_);
+  if (!AreSameShape(*mesh_, symmetric.mesh, distance, is_paper ? kRounding : kArea)) {
+    if (is_paper) mirror_.reset();
+    return;
+  }
+  Take(symmetric_, std::move(symmetric.mesh));
+  half_ = symmetric.half;
+  mirror_ = ExactMirrorPlane(half_, Surface());
+}
+
+void BaseMesh::ToUsersFaces(Pattern& pattern) const {
+  std::vector<int>& piece_of_face = pattern.piece_of_face;
+  piece_of_face.assign(mesh_->faces.size(), -1);
+  for (const Piece& piece : pattern.pieces)
+    for (int f : piece.flat.face) piece_of_face[f] = piece.id;
+  if (mesh_ == &users_) return;
+  const std::vector<int> users = FacesAtPlacesOf(*mesh_, users_);
+  for (Piece& piece : pattern.pieces)
+    for (int& f : piece.flat.face) f = users[f];
+  std::vector<int> pieces;
+  for (int f : FacesAtPlacesOf(users_, *mesh_)) pieces.push_back(piece_of_face[f]);
+  piece_of_face = std::move(pieces);
+}
+
+}  // namespace dcharts

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "common/surface_data.h"
+#include "pattern/pattern.h"
+#include "pattern/surface/symmetry.h"
+#include "surface/workspace.h"
+
+namespace dcharts {
+
+/// The mesh that pieces are made on, with its surface: the user's, or one of the same shape that is better
+/// for it.
+class BaseMesh {
+ public:
+  /// Throws Error for a mesh that is refused, see BuildSurface. `users` must outlive this.
+  explicit BaseMesh(const SurfaceData& users) : users_(users), mesh_(&users) { work_.emplace(users); }
+
+  const SurfaceData& Mesh() const { return *mesh_; }
+  const Workspace& Work() const { return *work_; }
+  const SurfaceGraph<SurfaceMesh>& Surface() const { return work_->Surface(); }
+  /// The plane of symmetry, once it was looked for.
+  const std::optional<MirrorPlane>& Mirror() const { return mirror_; }
+
+  /// Of the mesh when it is exactly symmetric (see SymmetricMesh), else 0.
+  int Half() const { return half_; }
+
+  void Coarsen(PatternMaterial material);  ///< see CoarseMesh
+  void FindMirror() { mirror_ = FindMirrorPlane(Surface()); }
+  /// Where there is a plane of symmetry, and it changes nothing that matters for the material, one half
+  /// becomes the exact mirror image of the other. Paper is symmetric exactly or not at all.
+  void MakeSymmetric(PatternMaterial material);
+
+  /// Sets piece_of_face, and has all faces in the pattern be those of the user's mesh.
+  void ToUsersFaces(Pattern& pattern) const;
+
+ private:
+  void Take(SurfaceData& here, SurfaceData mesh);
+
+  const SurfaceData& users_;
+  SurfaceData coarse_, symmetric_;
+  const SurfaceData* mesh_;
+  std::optional<Workspace> work_;
+  int half_ = 0;
+  std::optional<MirrorPlane> mirror_;
+};
+
+/// The longest side of the box of the vertices that faces use.
+double LongestSide(const SurfaceData& mesh);
+
+}  // namespace dcharts

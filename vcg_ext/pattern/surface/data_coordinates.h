@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "common/surface_data.h"
+#include "surface/surface_mesh.h"
+#include "surface/surface_graph.h"
+
+namespace dcharts {
+
+inline Eigen::Vector3d PositionOf(const SurfaceData& data, int vertex) {
+  return {data.vertices[vertex][0], data.vertices[vertex][1], data.vertices[vertex][2]};
+}
+
+/// From the coordinates of a surface to those of the data it was made of, which it has moved and scaled.
+class DataCoordinates {
+ public:
+  DataCoordinates(const SurfaceData& data, const SurfaceGraph<SurfaceMesh>& surface) {
+    // The scale is that of any long distance.
+    const int first = surface.Vertex(0);
+    int far = first;
+    const auto distance = [&](int v) { return (surface.Position(v) - surface.Position(first)).norm(); };
+    for (int h = 0; h < surface.HalfEdgeCount(); ++h)
+      if (distance(surface.Vertex(h)) > distance(far)) far = surface.Vertex(h);
+    scale_ = (PositionOf(data, far) - PositionOf(data, first)).norm() / distance(far);
+    offset_ = PositionOf(data, first) - scale_ * surface.Position(first);
+  }
+
+  double Scale() const { return scale_; }  ///< units of the data per unit of the surface
+  Eigen::Vector3d operator()(const Eigen::Vector3d& p) const { return scale_ * p + offset_; }
+
+ private:
+  double scale_ = 1;
+  Eigen::Vector3d offset_{0, 0, 0};
+};
+
+}  // namespace dcharts

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pattern/surface/same_shape.h"
+
+#include <cmath>
+
+#include "pattern/surface/data_coordinates.h"
+#include "pattern/surface/face_tree.h"
+
+namespace dcharts {
+namespace {
+
+double TotalArea(const SurfaceData& mesh) {
+  double area = 0;
+  for (const auto& [a, b, c] : mesh.faces) {
+    const Eigen::Vector3d p = PositionOf(mesh, a);
+    area += (PositionOf(mesh, b) - p).cross(PositionOf(mesh, c) - p).norm() / 2;
+  }
+  return area;
+}
+
+bool IsWithin(const SurfaceData& mesh, const FaceTree& other, double distance) {
+  std::vector<char> seen(mesh.vertices.size(), 0);
+  for (const auto& face : mesh.faces)
+    for (int v : face) {
+      if (seen[v]) continue;
+      seen[v] = 1;
+      if (other.Find(PositionOf(mesh, v)).distance > distance) return false;
+    }
+  return true;
+}
+
+}  // namespace
+
+bool AreSameShape(const SurfaceData& a, const SurfaceData& b, double distance, double area_share) {
+  const double area = TotalArea(a);
+  return std::abs(TotalArea(b) - area) <= area_share * area && IsWithin(a, FaceTree(b), distance) &&
+         IsWithin(b, FaceTree(a), distance);
+}
+
+std::vector<int> FacesAtPlacesOf(const SurfaceData& from, const SurfaceData& to) {
+  const FaceTree places(from), tree(to);
+  std::vector<int> faces;
+  for (int f = 0; f < static_cast<int>(from.faces.size()); ++f)
+    faces.push_back(tree.FindFacing(places.Centroid(f), places.Normal(f)).face);
+  return faces;
+}
+
+}  // namespace dcharts
