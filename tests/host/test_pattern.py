@@ -6,14 +6,16 @@ import re
 import numpy as np
 import pytest
 
-from cases import ROOT, is_sentence
+from cases import is_sentence
 from pattern_files import LEGEND, dxf_layers, dxf_pieces, length, outline_lengths, pdf_pages, svg_pieces, svg_texts
+from sheet_overlap import doubled_allowances, read_groups
 
 pymeshlab = pytest.importorskip('pymeshlab')
 pytest.importorskip('pymeshlab_dcharts')
 
 SIZE = 240.0
-MODELS = {'plush': 'Fabric', 'cad_part': 'Paper'}
+ALLOWANCE = 7.0  # mm, the default
+MODELS = {'plush': 'Fabric', 'bishop': 'Fabric', 'spot': 'Fabric', 'cad_part': 'Paper', 'fandisk_9926': 'Paper'}
 CLOSE = 0.01  # mm
 STITCH = (0.22, 0.3)  # mm, line widths in the PDF
 
@@ -30,12 +32,12 @@ def area(mesh):
 
 
 @pytest.fixture(scope='module', params=MODELS)
-def made(request, tmp_path_factory):
+def made(request, model_file, tmp_path_factory):
     """(model, material, MeshSet, folder) with the three files written."""
     folder = tmp_path_factory.mktemp(request.param)
     material = MODELS[request.param]
     for ending in ('svg', 'dxf', 'pdf'):
-        ms = load(ROOT / 'meshes' / f'{request.param}.ply')
+        ms = load(model_file(request.param))
         ms.dcharts_pattern(material=material, size=SIZE, output_file=str(folder / f'pattern.{ending}'))
     return request.param, material, ms, folder
 
@@ -113,6 +115,47 @@ def test_seams_have_equal_sides(made):
     assert len(sides) > 3
     for lengths in sides.values():
         assert max(lengths) - min(lengths) <= (0.01 if material == 'Fabric' else 0.001) * max(lengths) + CLOSE
+
+
+def test_there_is_room_for_the_allowance(made):
+    """Pieces do not come so near to themselves that allowances lie on each other."""
+    _, material, _, folder = made
+    if material == 'Fabric':
+        assert doubled_allowances(read_groups(folder / 'pattern.svg'), ALLOWANCE) == []
+
+
+def noisy(path):
+    """A mesh with its vertices off their places by up to 5 % of the mean edge."""
+    ms = load(path)
+    corners, faces = ms.current_mesh().vertex_matrix(), ms.current_mesh().face_matrix()
+    edge = np.linalg.norm(corners[faces[:, 0]] - corners[faces[:, 1]], axis=1).mean()
+    noise = np.random.default_rng(3).uniform(-0.05, 0.05, corners.shape) * edge
+    ms = pymeshlab.MeshSet()
+    ms.add_mesh(pymeshlab.Mesh(corners + noise, faces))
+    return ms
+
+
+# A piece that the mirror goes through is its own image, like the turned body of the bishop.
+@pytest.mark.parametrize('name, share_in_pairs', [('plush', 0.5), ('bishop', 0.2)])
+def test_symmetric_models_have_mirrored_pairs(tmp_path, model_file, name, share_in_pairs):
+    """Drawn once, also in the layer; the numbers to cut are those of all pieces."""
+    ms, file = noisy(model_file(name)), tmp_path / 'pairs.svg'
+    count = ms.dcharts_pattern(size=SIZE, merge_congruent=True, output_file=str(file))['charts']
+    texts = svg_texts(file)
+    copies = {}
+    for piece, of_piece in texts.items():
+        if piece.startswith('piece-'):
+            quantity = next(t for t in of_piece if t.startswith('cut '))
+            copies[int(piece.removeprefix('piece-'))] = [int(n) for n in re.findall(r'\d+', quantity)]
+    assert sum(map(sum, copies.values())) == count > len(copies)
+    assert any(f'{count} pieces' in t for t in texts['assembly'])
+    pieces = ms.mesh(1)
+    corners = pieces.vertex_matrix()[pieces.face_matrix()]
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+    area = {piece: areas[pieces.face_scalar_array() + 1 == piece].sum() for piece in copies}
+    whole = sum(area[piece] * sum(numbers) for piece, numbers in copies.items())
+    in_pairs = sum(area[piece] * sum(numbers) for piece, numbers in copies.items() if len(numbers) == 2)
+    assert in_pairs > share_in_pairs * whole, f'{in_pairs / whole:.2f}: {copies}'
 
 
 def page_sizes(path):
