@@ -139,7 +139,8 @@ def crossing_cuts(groups):
 
 
 def nets_beyond_cuts(groups, allowance):
-    """Sentences: stitch lines that are not within the cut line by the allowance (mm)."""
+    """Sentences: stitch lines that are not within the cut line by the allowance (mm), and cut lines that are far away:
+    corners down to 60 degrees keep their full mitre."""
     flaws = []
     for g in groups:
         if not g.is_piece:
@@ -150,6 +151,9 @@ def nets_beyond_cuts(groups, allowance):
         nearest = min(_distance(p, cut) for p in sewn[:, :2])
         if nearest < (allowance - 0.01) * UNIT:
             flaws.append(f'{g.name}: its allowance is {nearest / UNIT:.3f} mm')
+        farthest = max(_distance(p, sewn) for p in cut[:, :2])
+        if farthest > (2 * allowance + 0.05) * UNIT:
+            flaws.append(f'{g.name}: its cut line is {farthest / UNIT:.3f} mm from the stitch line')
     return flaws
 
 

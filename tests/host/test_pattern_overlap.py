@@ -117,6 +117,9 @@ class TestTheCheckItself:
 
     def test_an_allowance_that_is_too_narrow(self):
         assert nets_beyond_cuts([piece('a', 0)], 7.5) == ['a: its allowance is 7.000 mm']
+        needle = piece('a', 0)
+        needle.lines['cut'] = [np.insert(needle.lines['cut'][0], 1, [(100000, 0), (101000, -300000), (102000, 0)], axis=0)]
+        assert 'from the stitch line' in nets_beyond_cuts([needle], 7)[0]
         beyond = piece('a', 0)
         beyond.lines['stitch'] = [closed(rectangle(20, 7, 16, 6))]
         assert 'beyond' in nets_beyond_cuts([beyond], 7)[0]

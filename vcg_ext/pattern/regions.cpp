@@ -81,9 +81,17 @@ std::vector<Region> RegionsOf(const GridSet& set) {
   return regions;
 }
 
+// By how much the outline turns to the left where an edge with outward normal m is followed by one with n:
+// right back is pi, whatever rounding says.
+double TurnBetween(const Point2& m, const Point2& n) {
+  constexpr double kRightBack = 1e-6;
+  const double turn = std::atan2(m.x() * n.y() - m.y() * n.x(), m.dot(n));
+  return turn < -kPi + kRightBack ? kPi : turn;
+}
+
 // What a corner between edges with outward normals m and n adds outside.
 Polyline CornerPiece(const Point2& at, const Point2& m, const Point2& n, double distance) {
-  const double half = std::atan2(m.x() * n.y() - m.y() * n.x(), m.dot(n)) / 2;
+  const double half = TurnBetween(m, n) / 2;
   Polyline corner{at, at + distance * m};
   constexpr double kSharpest = 60 * kPi / 180;  // radians left at the corner
   if (2 * half <= kPi - kSharpest) {
@@ -141,8 +149,7 @@ std::vector<Region> Widened(const Region& region, double distance) {
     for (size_t k = 0; k < n; ++k) {
       const Point2 &p = loop[k], &q = loop[(k + 1) % n], m = normal(k), next = normal((k + 1) % n);
       Insert({p, p + distance * m, q + distance * m, q}, false, set);
-      if (m.x() * next.y() - m.y() * next.x() > 0 || m.dot(next) < 0)
-        Insert(CornerPiece(q, m, next, distance), false, set);
+      if (TurnBetween(m, next) > 0) Insert(CornerPiece(q, m, next, distance), false, set);
     }
   }
   return RegionsOf(set);
