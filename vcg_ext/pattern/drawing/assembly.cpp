@@ -126,6 +126,7 @@ class NumberedPicture {
   }
 
   void NumberBeside(int p) {
+    constexpr double kClearOfTarget = 0.75;  // mm: just out of the box that was kept for it
     const Point2 target = OnPage(view_.spots[p].at);
     Text text{std::to_string(p + 1), {0, 0}, kSmallestNumber + 0.6};
     for (double reach = 3; reach < kPixels * pixel_; reach *= 1.15)
@@ -135,7 +136,7 @@ class NumberedPicture {
         text.at = target + reach * way;
         const Box box = BoxOf(text).Grown(0.4);
         if (!IsEmpty(box) || !space_.IsFree(box)) continue;
-        const Point2 from = target + 1.2 * way, to = text.at - (box.half.norm() + 0.2) * way;
+        const Point2 from = target + kClearOfTarget * way, to = text.at - (box.half.norm() + 0.2) * way;
         if ((to - from).dot(way) <= 0 || !space_.IsFree(from, to, -1)) continue;
         group_.lines.push_back({Mark::kLeader, {target, to}});
         space_.AddLine({from, to}, false, -1);
