@@ -9,13 +9,15 @@
 #include "planar/flatten_start_angles.h"
 #include "planar/flatten_start_tutte.h"
 #include "planar/line_search.h"
+#include "planar/plane_points.h"
 
 namespace dcharts {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kGoodStart =
-    2;  // symmetric Dirichlet energy; a start from angles above it is compared with Tutte's
+// Symmetric Dirichlet energies:
+constexpr double kGoodStart = 2;  // a start from angles above it is compared with Tutte's
+constexpr double kGoodKnown = 3;  // a known map above it isn't used
 
 }  // namespace
 
@@ -39,10 +41,16 @@ double ScaleToBest(const Triangles& triangles, const RestShapes& shapes, PlanePo
   return MapEnergy({StretchEnergy::Kind::kSymmetricDirichlet}, triangles, shapes, uv);
 }
 
-double FlattenStart(const ChartMesh& chart, const RestShapes& shapes, VertexBlockSystem& system,
-                    const std::function<void()>& poll, PlanePoints& uv) {
+double FlattenStart(const ChartMesh& chart, const RestShapes& shapes, const Points2* known,
+                    VertexBlockSystem& system, const std::function<void()>& poll, PlanePoints& uv) {
   constexpr int kAngleSteps = 1;
   double energy = kInfinity;
+  if (known != nullptr && known->rows() == chart.positions.rows() && known->allFinite()) {
+    uv = ToPlanePoints(*known);
+    energy = ScaleToBest(chart.triangles, shapes, uv);
+    if (energy < kGoodKnown) return energy;
+    energy = kInfinity;
+  }
   if (std::optional<PlanePoints> start = StartFromAngles(chart, shapes, kAngleSteps, system)) {
     uv = std::move(*start);
     energy = ScaleToBest(chart.triangles, shapes, uv);

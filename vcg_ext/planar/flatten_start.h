@@ -10,11 +10,12 @@
 
 namespace dcharts {
 
-/// Puts a map without flipped triangles in `uv`, at its best size: the one from angles when that is good,
-/// else the better of it and Tutte's. Returns its symmetric Dirichlet energy (see StretchEnergy), infinite
-/// when neither is free of flips. `chart` must be normalized.
-double FlattenStart(const ChartMesh& chart, const RestShapes& shapes, VertexBlockSystem& system,
-                    const std::function<void()>& poll, PlanePoints& uv);
+/// Puts a map without flipped triangles in `uv`, at its best size: `known` (#V by 2 in any scale, may be
+/// null) when that is good, else the one from angles when that is good, else the better of it and Tutte's.
+/// Returns its symmetric Dirichlet energy (see StretchEnergy), infinite when none is free of flips. `chart`
+/// must be normalized.
+double FlattenStart(const ChartMesh& chart, const RestShapes& shapes, const Points2* known,
+                    VertexBlockSystem& system, const std::function<void()>& poll, PlanePoints& uv);
 
 /// Brings a map to the size at which its symmetric Dirichlet energy is least; returns that energy, infinite
 /// when the map flips.

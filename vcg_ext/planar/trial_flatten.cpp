@@ -35,17 +35,6 @@ TrialFlattening NoMap(const std::string& why) {
   return result;
 }
 
-// The map to begin with and its symmetric Dirichlet energy.
-double Begin(const ChartMesh& chart, const RestShapes& shapes, const Points2* start,
-             VertexBlockSystem& system, const Poll& poll, PlanePoints& uv) {
-  if (start != nullptr && start->rows() == chart.positions.rows() && start->allFinite()) {
-    uv = ToPlanePoints(*start);
-    const double energy = ScaleToBest(chart.triangles, shapes, uv);
-    if (energy < kNewtonWorks) return energy;
-  }
-  return FlattenStart(chart, shapes, system, poll, uv);
-}
-
 TrialFlattening Measured(const NormalizedChart& normalized, const RestShapes& shapes, const PlanePoints& uv) {
   TrialFlattening result;
   const StretchFigures figures = MeasureStretch(normalized.mesh, ToPoints(uv, 1.0));
@@ -69,7 +58,7 @@ TrialFlattening TrialFlatten(const ChartMesh& chart, const TrialOptions& options
   RestShapes shapes = RestShapesOf(normalized.mesh);
   VertexBlockSystem system(static_cast<int>(chart.positions.rows()), triangles);
   PlanePoints uv;
-  double energy = Begin(normalized.mesh, shapes, options.start, system, poll, uv);
+  double energy = FlattenStart(normalized.mesh, shapes, options.start, system, poll, uv);
   if (!std::isfinite(energy)) return NoMap("No flat start without flipped triangles was found.");
   if (energy > kNewtonWorks) {
     energy = Descend({Kind::kSymmetricDirichlet}, {StepKind::kReweighted, kReweightedSteps, 0}, triangles,

@@ -67,6 +67,12 @@ struct ChartGroups {
         if (p < q && owner[p] != owner[q]) cost += SeamCost(length);
     return cost;
   }
+  /// The area of charts that nobody asked for: a tiny chart hardly adds to the seams, so without this a
+  /// number of charts to reach would be made up with specks.
+  double TinyArea() const {
+    constexpr double kTiny = 0.003, kOfMean = 0.1;
+    return params.target_charts > 0 ? std::max(kTiny, kOfMean / params.target_charts) : kTiny;
+  }
   double CutLength(const ChartTrial& trial) const { return trial.cut_length / parts.Unit(); }
   /// For work that may take long.
   std::function<void()> Poll() {

@@ -167,6 +167,7 @@ class CheckedMerger {
   }
 
   bool FlatWithDarts(int a, int b) {
+    constexpr int kMostDarts = 4;
     const std::vector<int> both = groups_.PartsOfBoth(a, b);
     for (const bool coarse : {true, false}) {
       double cut_length = 0;
@@ -175,6 +176,7 @@ class CheckedMerger {
       DartGoal goal;
       goal.l2_stretch = coarse ? groups_.CoarseBound() : groups_.bound;
       goal.linf_stretch = kNoBound;
+      goal.most_darts = kMostDarts;
       goal.longest = groups_.params.max_dart_percent / 100 * open.Diagonal();
       goal.most_length = groups_.charts[a].borders[b] * groups_.parts.Unit();
       const DartedChart darted = CutStretchDarts(open, nullptr, goal, groups_.Poll());

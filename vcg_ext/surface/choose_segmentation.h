@@ -28,7 +28,7 @@ class SegmentationChooser {
 
   Segmentation Run() {
     // On large meshes it would take too long.
-    constexpr int kManyFaces = 50000;
+    constexpr int kManyFaces = 100000;
     if (params_.chart_count > 0 || params_.target_charts == 0 || surface_.FaceCount() > kManyFaces)
       return Lloyd<MeshType>(surface_, params_, progress_).Run();
     const int enough = Lloyd<MeshType>::EnoughCharts(params_, surface_.FaceCount());

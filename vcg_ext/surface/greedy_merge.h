@@ -96,8 +96,7 @@ class GreedyMerger {
                groups_.CutLength(groups_.charts[b].trial);
     const double key = both.least_energy - groups_.Energy(a) - groups_.Energy(b) - groups_.SeamCost(saved);
     // A tiny chart is hard to place once the charts around it are large: it comes first.
-    constexpr double kTiny = 0.003;
-    const bool later = std::min(groups_.charts[a].area, groups_.charts[b].area) > kTiny;
+    const bool later = std::min(groups_.charts[a].area, groups_.charts[b].area) > groups_.TinyArea();
     queue_.push({later, key, a, b, both.tried});
   }
 

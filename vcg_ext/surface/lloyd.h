@@ -41,17 +41,7 @@ class Lloyd {
     if (params_.chart_count > 0) return Iterate(params_.chart_count, params_.max_iterations);
     if (params_.target_charts > 0)
       return Iterate(EnoughCharts(params_, surface_.FaceCount()), params_.max_iterations);
-    constexpr int kTrialIterations = 6;
-    int iterations = 0;
-    for (int count = 1;; count = std::max(count + 1, count * 5 / 4)) {
-      const Segmentation trial = Iterate(count, std::min(kTrialIterations, params_.max_iterations));
-      iterations += trial.iterations;
-      const bool good = trial.energy <= GoodEnergy();
-      if (!good && count < std::min(kMostCharts, surface_.FaceCount())) continue;
-      Segmentation result = Iterate(count, params_.max_iterations);
-      result.iterations += iterations;
-      return result;
-    }
+    return Smallest();
   }
 
  private:
@@ -65,6 +55,39 @@ class Lloyd {
     if (params_.max_stretch > 0)
       share = std::clamp((params_.max_stretch - 1) / (kUsualBound - 1), kLeast, 1.0);
     return share * kGoodEnergy * params_.max_fitting_error;
+  }
+
+  // Strides through the growing list of numbers, then halves the last stride: as if more charts always fitted
+  // better, which is nearly so.
+  Segmentation Smallest() {
+    constexpr int kTrialIterations = 6;
+    constexpr size_t kStride = 4;
+    const int most = std::min(kMostCharts, surface_.FaceCount());
+    std::vector<int> counts;
+    for (int count = 1; counts.empty() || counts.back() < most; count = std::max(count + 1, count * 5 / 4))
+      counts.push_back(std::min(count, most));
+    int iterations = 0;
+    const auto is_good = [&](size_t i) {
+      if (i + 1 == counts.size()) return true;  // there are no more
+      const Segmentation trial = Iterate(counts[i], std::min(kTrialIterations, params_.max_iterations));
+      iterations += trial.iterations;
+      return trial.energy <= GoodEnergy();
+    };
+    size_t low = 0, high = std::min(2 * kStride, counts.size()) - 1;
+    while (!is_good(high)) {
+      low = high + 1;
+      high = std::min(high + kStride, counts.size() - 1);
+    }
+    while (low < high) {
+      const size_t middle = (low + high) / 2;
+      if (is_good(middle))
+        high = middle;
+      else
+        low = middle + 1;
+    }
+    Segmentation result = Iterate(counts[low], params_.max_iterations);
+    result.iterations += iterations;
+    return result;
   }
 
   Segmentation Iterate(int count, int max_iterations) {

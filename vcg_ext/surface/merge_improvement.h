@@ -70,24 +70,32 @@ class MergeImprover {
                           a, b});
       }
     }
+    if (merges.empty()) return false;
+    std::sort(merges.begin(), merges.end());
+    constexpr double kGain = 1e-5;
     for (int group = 0; group < static_cast<int>(groups.size()); ++group) {
       const std::vector<int>& some = groups[group].parts;
       const int c = owner[some.front()];
-      if (!IsMovable(some, -1, owner)) continue;
+      const double area = groups[group].area, other_area = groups_.charts[c].area - area;
+      if (!IsMovable(some, -1, owner) || std::min(area, other_area) < groups_.TinyArea()) continue;
+      // Most seams are too long for what could be gained, if both sides had no stretch at all.
+      const double least =
+          groups_.SeamCost(-SeamSaved(some, -1, owner) - groups_.CutLength(groups_.charts[c].trial)) -
+          groups_.Energy(c);
+      if (std::get<0>(merges.front()) + least >= -kGain) continue;
       const std::vector<int> rest = Without(groups_.charts[c].parts, some);
       if (!groups_.HangTogether(rest)) continue;
-      const ChartTrial &one = groups_.Trial(some), &other = groups_.Trial(rest);
-      if (!one.flat || !other.flat) continue;
+      const ChartTrial& one = groups_.Trial(some);
+      if (!one.flat || std::get<0>(merges.front()) + least + one.energy * area >= -kGain) continue;
+      const ChartTrial& other = groups_.Trial(rest);
+      if (!other.flat) continue;
       const double cut =
           groups_.CutLength(one) + groups_.CutLength(other) - groups_.CutLength(groups_.charts[c].trial);
-      splits.push_back({one.energy * groups[group].area +
-                            other.energy * (groups_.charts[c].area - groups[group].area) - groups_.Energy(c) +
+      splits.push_back({one.energy * area + other.energy * other_area - groups_.Energy(c) +
                             groups_.SeamCost(cut - SeamSaved(some, -1, owner)),
                         c, group});
     }
-    std::sort(merges.begin(), merges.end());
     std::sort(splits.begin(), splits.end());
-    constexpr double kGain = 1e-5;
     double best = -kGain;
     const Step *merge = nullptr, *split = nullptr;
     for (const Step& m : merges)
@@ -139,7 +147,8 @@ class MergeImprover {
     if (!IsMovable(group, b, owner)) return false;
     const int a = owner[group.front()];
     const double saved = SeamSaved(group, b, owner);
-    if (saved < -kMostLonger) return false;
+    if (saved < -kMostLonger || groups_.charts[a].area - groups_.Made(group).area < groups_.TinyArea())
+      return false;
     const std::vector<int> rest = Without(groups_.charts[a].parts, group), &to = groups_.charts[b].parts;
     std::vector<int> grown;
     std::merge(to.begin(), to.end(), group.begin(), group.end(), std::back_inserter(grown));

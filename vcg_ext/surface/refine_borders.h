@@ -13,6 +13,7 @@
 #include "planar/overlap.h"
 #include "planar/trial_flatten.h"
 #include "surface/border_graph_cut.h"
+#include "surface/carried_map.h"
 #include "surface/chart_trial.h"
 #include "surface/map_pricing.h"
 #include "surface/seam_price.h"
@@ -121,8 +122,15 @@ class BorderRefiner {
       const bool is_first = chart.patch.faces.empty();
       const double bound = std::max(params_.StretchBound(), chart.stretch);
       double cut_length = 0;
-      chart.patch = Opened(patches[k], cut_length);
-      TrialFlattening flat = TrialFlatten(chart.patch.mesh, {}, poll);
+      ChartPatch patch = Opened(patches[k], cut_length);
+      TrialOptions options;
+      Points2 start;
+      if (chart.uv.rows() > 0) {
+        start = CarriedMap(chart.patch, chart.uv, patch);
+        options.start = &start;
+      }
+      chart.patch = std::move(patch);
+      TrialFlattening flat = TrialFlatten(chart.patch.mesh, options, poll);
       chart.good = flat.ok && (is_first || flat.l2_stretch <= bound) &&
                    OverlappingPairs(OnGrid(flat.uv, chart.patch.mesh.triangles), 1).empty();
       chart.cost = flat.energy * chart.patch.Area() / surface_.TotalArea() + SeamCost(cut_length);

@@ -93,15 +93,18 @@ std::vector<int> SplitAtOverlaps(const ChartPatch& patch, const std::vector<std:
 }
 
 std::vector<int> Bisect(const ChartPatch& patch) {
-  const int face_count = static_cast<int>(patch.faces.size());
   auto farthest = [](const std::vector<double>& d) {
     return static_cast<int>(std::max_element(d.begin(), d.end()) - d.begin());
   };
   const int a = farthest(DualDistances(patch, 0));
-  const std::vector<double> from_a = DualDistances(patch, a);
-  int b = farthest(from_a);
+  int b = farthest(DualDistances(patch, a));
   if (b == a) b = a == 0 ? 1 : 0;  // faces without any extent
-  const std::vector<double> from_b = DualDistances(patch, b);
+  return BisectBetween(patch, a, b);
+}
+
+std::vector<int> BisectBetween(const ChartPatch& patch, int a, int b) {
+  const int face_count = static_cast<int>(patch.faces.size());
+  const std::vector<double> from_a = DualDistances(patch, a), from_b = DualDistances(patch, b);
   // Near either end the side is given; the cut is free in the middle band.
   constexpr double kBand = 0.15;
   std::vector<int> sources, sinks;

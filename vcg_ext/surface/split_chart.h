@@ -16,6 +16,9 @@ std::vector<int> SplitAtOverlaps(const ChartPatch& patch, const std::vector<std:
 /// Parts a chart of two or more faces between two far faces, by the shortest seam about half-way.
 std::vector<int> Bisect(const ChartPatch& patch);
 
+/// The same between two given faces, `a` on side 0 and `b` on side 1.
+std::vector<int> BisectBetween(const ChartPatch& patch, int a, int b);
+
 /// The faces on side 1 become chart `new_id`.
 void GiveSideAnId(const ChartPatch& patch, const std::vector<int>& side, int new_id, ChartIds& ids);
 

@@ -3,18 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "common/pi.h"
 #include "planar/distortion.h"
 #include "planar/overlap.h"
+#include "planar/trial_flatten.h"
+#include "surface/carried_map.h"
 #include "surface/open_chart.h"
 #include "surface/patch_paths.h"
 
 namespace dcharts {
 namespace {
-
-constexpr int kMostDarts = 12;
 
 // Area-weighted mean of the worst stretch of the faces around each vertex.
 std::vector<double> VertexStretch(const ChartPatch& patch, const Points2& uv) {
@@ -34,6 +37,50 @@ std::vector<double> VertexStretch(const ChartPatch& patch, const Points2& uv) {
   }
   for (int v = 0; v < patch.VertexCount(); ++v) sum[v] = weight[v] > 0 ? sum[v] / weight[v] : 0;
   return sum;
+}
+
+// Of a value per vertex, the mean over what is nearer than about a twentieth of the chart's width.
+std::vector<double> Smoothed(const ChartPatch& patch, std::vector<double> value) {
+  constexpr double kRoundsPerVertex = 0.005;
+  constexpr int kMostRounds = 200;
+  const int rounds = std::min(kMostRounds, static_cast<int>(kRoundsPerVertex * patch.VertexCount()));
+  std::vector<double> sum;
+  std::vector<int> faces(patch.VertexCount(), 0);
+  for (int h = 0; h < patch.HalfEdgeCount(); ++h) ++faces[patch.Vertex(h)];
+  for (int round = 0; round < rounds; ++round) {
+    sum.assign(value.size(), 0);
+    for (int f = 0; f < static_cast<int>(patch.faces.size()); ++f) {
+      const auto corner = [&](int i) { return patch.mesh.triangles(f, i); };
+      const double mean = (value[corner(0)] + value[corner(1)] + value[corner(2)]) / 3;
+      for (int i = 0; i < 3; ++i) sum[corner(i)] += mean;
+    }
+    for (size_t v = 0; v < value.size(); ++v) value[v] = sum[v] / faces[v];
+  }
+  return value;
+}
+
+bool HasFinish(const DartGoal& goal) { return std::isfinite(goal.linf_stretch); }
+
+// As the atlas will have it.
+Flattening FlatWithFinish(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll) {
+  FlattenOptions options;
+  options.l2_bound = goal.l2_stretch;
+  return Flatten(patch.mesh, options, poll);
+}
+
+// The quick way, without the finish; `start` may be null.
+Flattening FlatWithoutFinish(const ChartPatch& patch, const Points2* start,
+                             const std::function<void()>& poll) {
+  TrialOptions options;
+  options.start = start;
+  TrialFlattening trial = TrialFlatten(patch.mesh, options, poll);
+  Flattening flat;
+  flat.ok = trial.ok;
+  flat.why = std::move(trial.why);
+  flat.uv = std::move(trial.uv);
+  flat.l2_stretch = trial.l2_stretch;
+  flat.linf_stretch = trial.linf_stretch;
+  return flat;
 }
 
 bool Reached(const Flattening& flat, const DartGoal& goal) {
@@ -57,15 +104,20 @@ bool Helps(const Flattening& before, const Flattening& after, double length, con
 // or in too many places.
 std::vector<int> ConePoints(const ChartPatch& patch, const PatchPaths& paths) {
   constexpr double kPoint = 0.02, kFlat = 1e-4;
+  constexpr size_t kMostPoints = 12;
   std::vector<int> points;
   const std::vector<double> angle = AngleSums(patch);
   for (int v = 0; v < patch.VertexCount(); ++v) {
     if (paths.OnBoundary(v)) continue;
     const double curvature = std::abs(2 * kPi - angle[v]);
     if (curvature > kPoint) points.push_back(v);
-    if ((curvature > kFlat && curvature <= kPoint) || points.size() > kMostDarts) return {};
+    if ((curvature > kFlat && curvature <= kPoint) || points.size() > kMostPoints) return {};
   }
   return points;
+}
+
+bool Overlaps(const DartedChart& chart) {
+  return !OverlappingPairs(OnGrid(chart.flat.uv, chart.patch.mesh.triangles), 1).empty();
 }
 
 // A dart to each cone point, when the chart has no stretch at all then and that is worth the length: one by
@@ -97,78 +149,165 @@ bool CutConePoints(const DartGoal& goal, const std::function<void()>& poll, Dart
     darted.patch = CutOpen(darted.patch, cut);
     corner_of.erase(nearest);
   }
-  FlattenOptions options;
-  options.l2_bound = goal.l2_stretch;
-  darted.flat = Flatten(darted.patch.mesh, options, poll);
+  darted.flat = FlatWithFinish(darted.patch, goal, poll);
   const double share = chart.patch.Area() / (goal.unit * goal.unit);
   if (!darted.flat.ok || darted.flat.l2_stretch > 1 + kNoStretch ||
       (chart.flat.l2_stretch - darted.flat.l2_stretch) * share < kL2PerUnit * total_length / goal.unit ||
-      !OverlappingPairs(OnGrid(darted.flat.uv, darted.patch.mesh.triangles), 1).empty())
+      Overlaps(darted))
     return false;
   chart = std::move(darted);
   return true;
+}
+
+// Darts one by one, each to the place that is stretched most.
+class DartSearch {
+ public:
+  DartSearch(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart)
+      : goal_(goal),
+        poll_(poll),
+        chart_(chart),
+        useless_(chart.patch.HalfEdgeCount(), 0),
+        hopeless_(chart.patch.faces.size(), 0) {}
+
+  void Run() {
+    constexpr int kMostFailures = 2;
+    for (int failures = 0;
+         chart_.count < goal_.most_darts && failures < kMostFailures && !Reached(chart_.flat, goal_);) {
+      PatchPaths paths(chart_.patch);
+      paths.Run(paths.BoundaryVertices(), true);
+      const int worst = FindWorst(paths);
+      if (worst < 0) return;
+      if (CutBest(paths, worst)) continue;
+      ++failures;
+      GiveUpAround(worst, paths.Distance(chart_.patch.Vertex(worst)));
+    }
+  }
+
+ private:
+  // A corner at the vertex that is stretched most of those that a dart may go to; -1 when there is none.
+  int FindWorst(const PatchPaths& paths) const {
+    const std::vector<double> stretch = VertexStretch(chart_.patch, chart_.flat.uv);
+    return Best(paths, [&](int v) { return stretch[v]; });
+  }
+
+  template <class Value>
+  int Best(const PatchPaths& paths, const Value& value) const {
+    const double reach = std::min(goal_.longest, goal_.most_length - total_length_);
+    int best = -1;
+    for (int h = 0; h < chart_.patch.HalfEdgeCount(); ++h) {
+      const int v = chart_.patch.Vertex(h);
+      if (hopeless_[h / 3] || paths.OnBoundary(v) || !(paths.Distance(v) <= reach)) continue;
+      if (best < 0 || value(v) > value(chart_.patch.Vertex(best))) best = h;
+    }
+    return best;
+  }
+
+  // Cuts the best dart to the worst corner or the innermost one, if any helps.
+  bool CutBest(const PatchPaths& paths, int worst) {
+    std::vector<int> tips{worst};
+    // A dart relieves a disk as wide as it is long, so the mean stretch around its tip counts for more than
+    // that at it. A round chart is stretched most at its rim, and yet a cut to its middle may relieve it
+    // more.
+    if (chart_.flat.l2_stretch > goal_.l2_stretch) {
+      const std::vector<double> around = Smoothed(chart_.patch, VertexStretch(chart_.patch, chart_.flat.uv));
+      for (const int tip : {Best(paths, [&](int v) { return around[v]; }),
+                            Best(paths, [&](int v) { return paths.Distance(v); })})
+        if (std::find(tips.begin(), tips.end(), tip) == tips.end()) tips.push_back(tip);
+    }
+    double best_gain = -1, best_length = 0;
+    DartedChart best;
+    for (int tip : tips) {
+      const double length = paths.Distance(chart_.patch.Vertex(tip));
+      DartedChart trial;
+      if (useless_[tip] || !Try(paths.Path(chart_.patch.Vertex(tip)), length, trial)) {
+        useless_[tip] = 1;
+        continue;
+      }
+      // By the length alone, many small ones would come before the one that does the work.
+      const double gain =
+          (chart_.flat.l2_stretch - std::max(trial.flat.l2_stretch, goal_.l2_stretch)) / std::sqrt(length);
+      if (best.count > 0 && gain <= best_gain) continue;
+      best_gain = gain;
+      best_length = length;
+      best = std::move(trial);
+    }
+    if (best.count == 0) return false;
+    best.edges.insert(best.edges.begin(), chart_.edges.begin(), chart_.edges.end());
+    best.count += chart_.count;
+    total_length_ += best_length;
+    chart_ = std::move(best);
+    plain_.reset();
+    std::fill(useless_.begin(), useless_.end(), 0);
+    return true;
+  }
+
+  // One more dart; false when it doesn't help.
+  bool Try(const std::vector<int>& cut, double length, DartedChart& trial) {
+    trial = {cut, 1, CutOpen(chart_.patch, cut), {}};
+    // Most darts don't help, which shows in a map without the finish, made from the one the chart has.
+    if (!plain_) {
+      plain_ = HasFinish(goal_) ? FlatWithoutFinish(chart_.patch, &chart_.flat.uv, poll_) : chart_.flat;
+    }
+    const Points2 start = CarriedMap(chart_.patch, plain_->ok ? plain_->uv : chart_.flat.uv, trial.patch);
+    trial.flat = FlatWithoutFinish(trial.patch, &start, poll_);
+    DartGoal goal = goal_;
+    if (chart_.flat.l2_stretch <= goal.l2_stretch)  // though not quite by the quick map
+      goal.l2_stretch = std::max(goal.l2_stretch, plain_->l2_stretch);
+    if (!Helps(*plain_, trial.flat, length, goal)) return false;
+    // What laps over a little may not do so with the finish.
+    if (!HasFinish(goal_) && !Overlaps(trial)) return true;
+    trial.flat = FlatWithFinish(trial.patch, goal_, poll_);
+    return Helps(chart_.flat, trial.flat, length, goal_) && !Overlaps(trial);
+  }
+
+  // No darts to anywhere near, as one to this corner was of no use.
+  void GiveUpAround(int corner, double distance) {
+    PatchPaths around(chart_.patch);
+    around.Run({chart_.patch.Vertex(corner)}, false);
+    for (int h = 0; h < chart_.patch.HalfEdgeCount(); ++h)
+      if (around.Distance(chart_.patch.Vertex(h)) <= distance) hopeless_[h / 3] = 1;
+  }
+
+  const DartGoal& goal_;
+  const std::function<void()>& poll_;
+  DartedChart& chart_;
+  double total_length_ = 0;
+  std::optional<Flattening> plain_;  // of the chart as it is now, without the finish
+  std::vector<char> useless_;        // corners to which a dart into the chart as it is now doesn't help
+  std::vector<char> hopeless_;       // faces
+};
+
+// Darts that bring the L2 stretch within the goal, whatever becomes of the worst stretch; returns whether it
+// is.
+bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart) {
+  DartGoal mean = goal;
+  mean.linf_stretch = std::numeric_limits<double>::infinity();
+  DartedChart darted = chart;
+  if (HasFinish(goal)) darted.flat = FlatWithoutFinish(chart.patch, &chart.flat.uv, poll);
+  DartSearch(mean, poll, darted).Run();
+  if (darted.count == 0) return false;
+  if (HasFinish(goal)) {
+    darted.flat = FlatWithFinish(darted.patch, goal, poll);
+    if (!darted.flat.ok || Overlaps(darted)) return false;
+  }
+  chart = std::move(darted);
+  return chart.flat.l2_stretch <= goal.l2_stretch;
 }
 
 }  // namespace
 
 DartedChart CutStretchDarts(const ChartPatch& patch, const Flattening* known, const DartGoal& goal,
                             const std::function<void()>& poll) {
-  constexpr int kMostFailures = 3;
   DartedChart chart;
   chart.patch = patch;
-  FlattenOptions options;
-  options.l2_bound = goal.l2_stretch;
-  chart.flat = known ? *known : Flatten(patch.mesh, options, poll);
-  double total_length = 0;
+  if (known)
+    chart.flat = *known;
+  else
+    chart.flat =
+        HasFinish(goal) ? FlatWithFinish(patch, goal, poll) : FlatWithoutFinish(patch, nullptr, poll);
   if (!chart.flat.ok || CutConePoints(goal, poll, chart)) return chart;
-  std::vector<char> hopeless(patch.faces.size(), 0);  // darts to these faces were of no use
-  for (int failures = 0;
-       chart.count < kMostDarts && failures < kMostFailures && !Reached(chart.flat, goal);) {
-    const ChartPatch& open = chart.patch;
-    const std::vector<double> stretch = VertexStretch(open, chart.flat.uv);
-    PatchPaths paths(open);
-    paths.Run(paths.BoundaryVertices(), true);
-    int worst = -1, innermost = -1;
-    for (int h = 0; h < open.HalfEdgeCount(); ++h) {
-      const int v = open.Vertex(h);
-      const double reach = std::min(goal.longest, goal.most_length - total_length);
-      if (hopeless[h / 3] || paths.OnBoundary(v) || !(paths.Distance(v) <= reach)) continue;
-      if (worst < 0 || stretch[v] > stretch[worst]) worst = v;
-      if (innermost < 0 || paths.Distance(v) > paths.Distance(innermost)) innermost = v;
-    }
-    if (worst < 0) break;
-    // A round chart is stretched most at its rim, and yet a cut to its middle may relieve it more.
-    std::vector<int> tips{worst};
-    if (chart.flat.l2_stretch > goal.l2_stretch && innermost != worst) tips.push_back(innermost);
-    double best_gain = -1, best_length = 0;
-    DartedChart best;
-    for (int tip : tips) {
-      const double length = paths.Distance(tip);
-      const std::vector<int> cut = paths.Path(tip);
-      DartedChart trial{cut, 1, CutOpen(open, cut), {}};
-      trial.flat = Flatten(trial.patch.mesh, options, poll);
-      const double gain = (chart.flat.l2_stretch - trial.flat.l2_stretch) / length;
-      if (!Helps(chart.flat, trial.flat, length, goal) || (tip != worst && gain <= best_gain) ||
-          !OverlappingPairs(OnGrid(trial.flat.uv, trial.patch.mesh.triangles), 1).empty())
-        continue;
-      best_gain = gain;
-      best_length = length;
-      best = std::move(trial);
-    }
-    if (best.count > 0) {
-      chart.edges.insert(chart.edges.end(), best.edges.begin(), best.edges.end());
-      ++chart.count;
-      total_length += best_length;
-      chart.patch = std::move(best.patch);
-      chart.flat = std::move(best.flat);
-      continue;
-    }
-    ++failures;
-    PatchPaths around(open);
-    around.Run({worst}, false);
-    for (int h = 0; h < open.HalfEdgeCount(); ++h)
-      if (around.Distance(open.Vertex(h)) <= paths.Distance(worst)) hopeless[h / 3] = 1;
-  }
+  if (chart.flat.l2_stretch > goal.l2_stretch && !CutForMeanStretch(goal, poll, chart)) return chart;
+  DartSearch(goal, poll, chart).Run();
   return chart;
 }
 
