@@ -149,6 +149,7 @@ Folded FoldPaperOf(const char* name, int rounds) {
   Params params;
   params.material = PatternMaterial::kPaper;
   params.size = kSize;
+  params.print_texture = true;  // keeps the mesh's own triangles, whose places on the model are known
   Progress progress;
   const Pattern pattern = MakePattern(shape.mesh, params, progress).pattern;
   Folded worst;
@@ -180,7 +181,7 @@ class PaperOfDoubleCurved : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(PaperOfDoubleCurved, ComesNearTheModel) {
   const Folded folded = FoldPaperOf(GetParam(), 100);
-  EXPECT_LT(folded.strain, 0.01);
+  EXPECT_LT(folded.strain, 0.006);
   EXPECT_LT(folded.distance, 0.02 * kSize);
 }
 
