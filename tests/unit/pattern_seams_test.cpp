@@ -259,15 +259,20 @@ TEST(PatternMatchPoints, AreAtEqualArcLengthOnBothSides) {
   EXPECT_EQ(static_cast<int>(numbers.size()), points);
 }
 
-TEST(PatternSewingOrder, NumbersEverySeamOnceAndLeavesTheLongestOpen) {
-  Pattern pattern = FinePattern(ChartsOf(
-      Scaled(shapes::Cube(4), 30),
-      [](const Point3& p) {
+// The sides of a cube, each a piece.
+Pattern SixSides(double edge) {
+  return FinePattern(ChartsOf(
+      Scaled(shapes::Cube(4), edge),
+      [edge](const Point3& p) {
         int d = 0;
-        (p - Point3::Constant(15)).cwiseAbs().maxCoeff(&d);
-        return 2 * d + (p[d] > 15);
+        (p - Point3::Constant(edge / 2)).cwiseAbs().maxCoeff(&d);
+        return 2 * d + (p[d] > edge / 2);
       },
       FromAbove));
+}
+
+TEST(PatternSewingOrder, NumbersEverySeamOnceAndLeavesTheLongestOfSmallOnesOpen) {
+  Pattern pattern = SixSides(30);
   pattern.seams[7].length += 1;
   SetSewingOrder(pattern);
   std::set<int> orders;
@@ -277,6 +282,16 @@ TEST(PatternSewingOrder, NumbersEverySeamOnceAndLeavesTheLongestOpen) {
   EXPECT_EQ(*orders.rbegin(), 12);
   EXPECT_TRUE(pattern.seams[7].opening);
   EXPECT_EQ(pattern.seams[7].order, 12);
+}
+
+TEST(PatternSewingOrder, LeavesTheShortestOpenThatAHandGoesThrough) {
+  Pattern pattern = SixSides(200);
+  pattern.seams[3].length = 79;
+  pattern.seams[5].length = 81;
+  pattern.seams[9].length = 500;
+  SetSewingOrder(pattern);
+  for (const Seam& seam : pattern.seams) EXPECT_EQ(seam.opening, seam.id == 5) << seam.id;
+  EXPECT_EQ(pattern.seams[5].order, 12);
 }
 
 }  // namespace

@@ -27,6 +27,15 @@ std::vector<double> ArcsOf(const Seam& seam) {
   return arcs;
 }
 
+// Which of the seams, sorted from the longest, is left open: it is closed by hand, so the shortest one that a
+// hand goes through.
+size_t OpeningOf(const Pattern& pattern, const std::vector<int>& seams) {
+  constexpr double kHand = 80;  // mm
+  size_t opening = 0;
+  while (opening + 1 < seams.size() && pattern.seams[seams[opening + 1]].length >= kHand) ++opening;
+  return opening;
+}
+
 }  // namespace
 
 void AddMatchPoints(Pattern& pattern) {
@@ -64,8 +73,10 @@ void SetSewingOrder(Pattern& pattern) {
   std::stable_sort(open.begin(), open.end(),
                    [&](int a, int b) { return pattern.seams[a].length > pattern.seams[b].length; });
   if (pattern.material == PatternMaterial::kFabric && !open.empty()) {
-    pattern.seams[open.front()].opening = true;
-    std::rotate(open.begin(), open.begin() + 1, open.end());
+    const size_t opening = OpeningOf(pattern, open);
+    pattern.seams[open[opening]].opening = true;
+    open.push_back(open[opening]);
+    open.erase(open.begin() + static_cast<std::ptrdiff_t>(opening));
   }
   // The longest first, but always on to what is begun already, so that the work stays in one part.
   std::vector<char> begun(pattern.pieces.size(), 0);

@@ -11,7 +11,8 @@ namespace dcharts {
 void AddMatchPoints(Pattern& pattern);
 
 /// Sets the order in which to sew: darts first, then seam by seam what joins most to what is joined already.
-/// Of fabric, the longest seam stays open to turn and to stuff, and is closed last.
+/// Of fabric, one seam stays open to turn and to stuff, and is closed last by hand: the shortest of those of
+/// at least 80 mm, else the longest.
 void SetSewingOrder(Pattern& pattern);
 
 }  // namespace dcharts
