@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from hosts import BUILD
-from sheet_overlap import (Group, covered_labels, crossing_cuts, doubled_allowances, merged_tabs, nets_beyond_cuts,
-                           read_groups, segments, stray_labels, touching)
+from pattern_files import pdf_pages
+from sheet_overlap import (Group, covered_labels, crossing_cuts, doubled_allowances, inside, merged_tabs,
+                           nets_beyond_cuts, read_groups, segments, stray_labels, touching)
 
 pymeshlab = pytest.importorskip('pymeshlab')
 pytest.importorskip('pymeshlab_dcharts')
@@ -29,6 +30,7 @@ MODELS = GENERATED + tuple(VARIANTS) + SHARED
 LONG_IN_PAPER = ('double_torus', 'bishop', 'spot', 'nasty_office_chair')  # many strips of paper: left out for the time
 CASES = [(name, material) for name in MODELS for material in ('Fabric', 'Paper')
          if material == 'Fabric' or name not in LONG_IN_PAPER]
+CUT_WIDTH = 0.35  # mm, of lines in the PDF
 # Also where there is little room: sizes in mm, with an allowance and a width of tabs.
 SETTINGS = ((240.0, 7.0, 6.0), (100.0, 5.0, 10.0), (400.0, 12.0, 15.0))
 
@@ -83,6 +85,29 @@ def test_nothing_overlaps(shapes, model_file, tmp_path, name, material):
     assert (nets_beyond_cuts(groups, allowance) if material == 'Fabric' else merged_tabs(groups)) == []
     assert covered_labels(groups) == []
     assert stray_labels(groups) == []
+
+
+def cut_lines(strokes):
+    """The pieces of a page of a PDF: an outer line runs counterclockwise, holes clockwise."""
+    loops = [np.rint(closed(points) * 10000).astype(np.int64) for width, points, is_closed in strokes
+             if is_closed and abs(width - CUT_WIDTH) < 1e-3]
+    areas = [(p[:-1, 0] * p[1:, 1].astype(float) - p[1:, 0].astype(float) * p[:-1, 1]).sum() for p in loops]
+    outer = [loop for loop, area in zip(loops, areas) if area > 0]
+    holes = [loop for loop, area in zip(loops, areas) if area <= 0]
+    return [Group(f'loop {k}', True, {'cut': [loop] + [h for h in holes if inside(h[0], [loop])]})
+            for k, loop in enumerate(outer)]
+
+
+@pytest.mark.parametrize('material', ['Fabric', 'Paper'])
+def test_nothing_overlaps_on_pages(shapes, model_file, tmp_path, material):
+    """Whole pieces on pages lie otherwise than on the sheet."""
+    file = tmp_path / 'pages.pdf'
+    load('two_components', shapes, model_file).dcharts_pattern(
+        material=material, size=150.0, page='A4', output_file=str(file))
+    pages = [cut_lines(strokes) for strokes in pdf_pages(file)]
+    assert sum(len(groups) for groups in pages) >= 4
+    for groups in pages:
+        assert crossing_cuts(groups) == []
 
 
 def rectangle(x, y, width, height):
