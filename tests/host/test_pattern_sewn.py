@@ -17,9 +17,11 @@ MODELS = {
     'cad_part': 'Paper',
     'cylinder': 'Paper',
     'spot': 'Fabric',
+    'bunny': 'Fabric',
     'fandisk_9926': 'Paper',
 }
 MOST_EASE = {'Fabric': 0.01, 'Paper': 0.001}
+BORDER = {'Fabric': 0.05, 'Paper': 0.002}  # of the border's length: simplified by up to 2 mm, it loses teeth
 
 
 def euler_and_border(mesh):
@@ -71,7 +73,7 @@ def test_every_point_of_the_outlines_is_in_a_seam(sewn):
     _, border = euler_and_border(ms.mesh(0))
     scale = SIZE / np.ptp(ms.mesh(0).vertex_matrix(), axis=0).max()
     edges = sum(sides[0].arcs[-1] for sides in pieces.seams.values() if len(sides) == 1)
-    assert edges == pytest.approx(border * scale, rel=2 * MOST_EASE[material])
+    assert edges == pytest.approx(border * scale, rel=BORDER[material])
 
 
 def test_it_is_the_model_again(sewn):
