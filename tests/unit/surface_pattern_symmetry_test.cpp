@@ -123,6 +123,41 @@ TEST(PatternSymmetry, ATextureKeepsTheModelAsItIs) {
   for (int count : seen) EXPECT_EQ(count, 1);
 }
 
+TEST(PatternSmoothSeams, TeethOfACreaseBecomeSmaller) {
+  // A roof whose ridge has teeth.
+  SurfaceData roof = shapes::Grid(16, 16);
+  for (auto& v : roof.vertices) {
+    const bool on_ridge = std::abs(v[0] - 0.5) < 1e-9;
+    if (on_ridge) v[0] += (static_cast<int>(std::lround(16 * v[1])) % 2 == 0 ? 0.02 : -0.02);
+    v[2] = on_ridge ? 0.5 : 0.5 - std::abs(v[0] - 0.5);
+  }
+  const TestSurface surface(roof);
+  const ChartIds ids = surface.Paint([](const std::array<double, 3>& p) { return p[0] < 0.5 ? 0 : 1; });
+  const SeamMask seams = ChartBorders(*surface, ids);
+  const SurfaceData smooth = WithSmoothSeams(roof, *surface, seams);
+  double before = 0, after = 0;
+  for (size_t v = 0; v < roof.vertices.size(); ++v) {
+    if (std::abs(roof.vertices[v][0] - 0.5) > 0.03) {
+      EXPECT_EQ(roof.vertices[v], smooth.vertices[v]);
+      continue;
+    }
+    if (roof.vertices[v][1] < 0.1 || roof.vertices[v][1] > 0.9) continue;
+    before = std::max(before, std::abs(roof.vertices[v][0] - 0.5));
+    after = std::max(after, std::abs(smooth.vertices[v][0] - 0.5));
+  }
+  EXPECT_LT(after, 0.5 * before);
+}
+
+TEST(PatternSmoothSeams, CornersOfACubeStay) {
+  const SurfaceData cube = shapes::Cube(4);
+  const TestSurface surface(cube);
+  // A side against the others: its border turns at the cube's corners.
+  const ChartIds ids = surface.Paint([](const std::array<double, 3>& p) { return p[2] > 0.999 ? 0 : 1; });
+  const SurfaceData smooth = WithSmoothSeams(cube, *surface, ChartBorders(*surface, ids));
+  for (size_t v = 0; v < cube.vertices.size(); ++v)
+    for (int d = 0; d < 3; ++d) EXPECT_NEAR(cube.vertices[v][d], smooth.vertices[v][d], 1e-12);
+}
+
 TEST(PatternSmoothSeams, TeethBecomeAStraightLineOnASheet) {
   const SurfaceData grid = shapes::Grid(20, 20);
   const TestSurface surface(grid);

@@ -106,14 +106,14 @@ struct Params {
   // --- patterns (4)
   PatternMaterial material = PatternMaterial::kFabric;
   LengthUnit units = LengthUnit::kMm;
-  double size = 0;                ///< longest side of the finished object's axis-aligned box, in `units`,
-                                  ///< 0..100000; 0 = as the mesh is
-  double seam_allowance = 7;      ///< of fabric, mm, 0..100
-  double tab_width = 6;           ///< of paper, mm, 0..100; 0 = no tabs
-  double simplify_tolerance = 2;  ///< how far a simplified outline may be from the exact one, mm, 0..100
-  double fold_angle = 15;         ///< paper that bends more sharply gets a fold line, degrees, 0..180
-  bool merge_congruent = false;   ///< pieces of the same shape are drawn once
-  bool print_texture = false;     ///< the model's colours are drawn into the pieces
+  double size = 0;                  ///< longest side of the finished object's axis-aligned box, in `units`,
+                                    ///< 0..100000; 0 = as the mesh is
+  double seam_allowance = 7;        ///< of fabric, mm, 0..100
+  double tab_width = 6;             ///< of paper, mm, 0..100; 0 = no tabs
+  double simplify_tolerance = 0.5;  ///< how far a simplified outline may be from the exact one, mm, 0..100
+  double fold_angle = 15;           ///< paper that bends more sharply gets a fold line, degrees, 0..180
+  bool merge_congruent = false;     ///< pieces of the same shape are drawn once
+  bool print_texture = false;       ///< the model's colours are drawn into the pieces
   PageFormat page = PageFormat::kSingleSheet;
   Oversize oversize = Oversize::kTile;
   std::string output_file;  ///< .svg, .pdf or .dxf; empty = no file

@@ -11,6 +11,22 @@
 #include "pattern/texts.h"
 
 namespace dcharts {
+namespace {
+
+// All the edges that the hole lies along are those of darts.
+bool IsWithinDart(const Pattern& pattern, const Piece& piece, const Polyline& hole, double allowance) {
+  constexpr double kNear = 1.05;
+  for (const OutlineLoop& loop : piece.loops)
+    for (size_t k = 0; k < loop.size(); ++k) {
+      if (pattern.seams[loop[k].seam].is_dart) continue;
+      const Point2 &a = loop[k].at, &b = loop[(k + 1) % loop.size()].at;
+      for (const Point2& p : hole)
+        if (DistanceToSegment(p, a, b) < kNear * allowance) return false;
+    }
+  return true;
+}
+
+}  // namespace
 
 void AddAllowances(double allowance, Pattern& pattern) {
   pattern.allowance = allowance;
@@ -27,6 +43,7 @@ void AddAllowances(double allowance, Pattern& pattern) {
   if (!narrow.empty())
     pattern.warnings.push_back("Narrower than the seam allowance: " + PieceList(narrow) +
                                ". Take a smaller seam_allowance, a larger size or fewer charts.");
+  std::vector<int> tight;
   for (Piece& piece : pattern.pieces) {
     const Region net = OutlineOf(piece);
     if (!(allowance > 0)) {
@@ -37,12 +54,17 @@ void AddAllowances(double allowance, Pattern& pattern) {
     piece.cut.assign(1, wide.front().front());
     for (size_t h = 1; h < wide.front().size(); ++h) {
       const Polyline& hole = wide.front()[h];
-      // A hole of the piece is still one; what the two legs of a dart enclose is not.
       const bool is_hole = std::any_of(net.begin() + 1, net.end(),
                                        [&](const Polyline& loop) { return IsInside({loop}, hole.front()); });
-      if (is_hole) piece.cut.push_back(hole);
+      // What the two legs of a dart enclose is fabric to fold; any other pocket has to be cut out.
+      const bool is_pocket = !is_hole && !IsWithinDart(pattern, piece, hole, allowance);
+      if (is_pocket && (tight.empty() || tight.back() != piece.id)) tight.push_back(piece.id);
+      if (is_hole || is_pocket) piece.cut.push_back(hole);
     }
   }
+  if (!tight.empty())
+    pattern.warnings.push_back("Too near to themselves for the whole seam allowance: " + PieceList(tight) +
+                               ". Cut along the middle there, or take a smaller seam_allowance.");
 }
 
 }  // namespace dcharts

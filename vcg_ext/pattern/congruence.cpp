@@ -62,19 +62,50 @@ Shape ShapeOf(const Piece& piece, bool mirrored) {
   return shape;
 }
 
-// How far the corners of one are from the outline of the other, turned by `turn`.
-double FarthestCorner(const std::vector<Polyline>& from, const Complex& turn,
-                      const std::vector<Polyline>& to) {
+// How one shape is laid on another: z -> turn z + shift.
+struct Pose {
+  Complex turn{1, 0}, shift{0, 0};
+
+  Complex operator()(const Complex& z) const { return turn * z + shift; }
+  Pose Inverse() const { return {std::conj(turn), -std::conj(turn) * shift}; }
+};
+
+Complex NearestOn(const std::vector<Polyline>& loops, const Complex& z) {
+  const Point2 p(z.real(), z.imag());
+  Point2 nearest = loops.front().front();
+  for (const Polyline& loop : loops)
+    for (size_t k = 0; k < loop.size(); ++k) {
+      const Point2 &a = loop[k], e = loop[(k + 1) % loop.size()] - a;
+      const double length = e.squaredNorm();
+      const Point2 q = a + (length > 0 ? std::clamp((p - a).dot(e) / length, 0.0, 1.0) : 0) * e;
+      if ((p - q).squaredNorm() < (p - nearest).squaredNorm()) nearest = q;
+    }
+  return {nearest.x(), nearest.y()};
+}
+
+// A better pose: each sample is to come to the point of the outline next to it.
+Pose Better(const std::vector<Complex>& samples, const Pose& pose, const std::vector<Polyline>& outline) {
+  std::vector<Complex> nearest;
+  Complex middle = 0, nearest_middle = 0, sum = 0;
+  for (const Complex& z : samples) {
+    nearest.push_back(NearestOn(outline, pose(z)));
+    middle += z / static_cast<double>(samples.size());
+    nearest_middle += nearest.back() / static_cast<double>(samples.size());
+  }
+  for (size_t s = 0; s < samples.size(); ++s)
+    sum += (nearest[s] - nearest_middle) * std::conj(samples[s] - middle);
+  if (!(std::abs(sum) > 0)) return pose;
+  const Complex turn = sum / std::abs(sum);
+  return {turn, nearest_middle - turn * middle};
+}
+
+// How far the corners of one are from the outline of the other.
+double FarthestCorner(const std::vector<Polyline>& from, const Pose& pose, const std::vector<Polyline>& to) {
   double farthest = 0;
   for (const Polyline& loop : from)
     for (const Point2& p : loop) {
-      const Complex z = turn * Complex(p.x(), p.y());
-      const Point2 q(z.real(), z.imag());
-      double nearest = std::numeric_limits<double>::infinity();
-      for (const Polyline& other : to)
-        for (size_t k = 0; k < other.size(); ++k)
-          nearest = std::min(nearest, DistanceToSegment(q, other[k], other[(k + 1) % other.size()]));
-      farthest = std::max(farthest, nearest);
+      const Complex z = pose(Complex(p.x(), p.y()));
+      farthest = std::max(farthest, std::abs(NearestOn(to, z) - z));
     }
   return farthest;
 }
@@ -95,9 +126,13 @@ bool AreCongruent(const Shape& a, const Shape& b, double tolerance) {
   std::sort(turns.begin(), turns.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
   constexpr size_t kTries = 8;  // round pieces fit in several ways
   if (turns.size() > kTries) turns.resize(kTries);
+  // Samples and corners don't lie in the same places: both turn and place are only about right.
+  constexpr int kSteps = 4;
   return std::any_of(turns.begin(), turns.end(), [&](const auto& turn) {
-    return FarthestCorner(a.loops, turn.second, b.loops) <= most &&
-           FarthestCorner(b.loops, std::conj(turn.second), a.loops) <= most;
+    Pose pose{turn.second};
+    for (int step = 0; step < kSteps; ++step) pose = Better(a.samples, pose, b.loops);
+    return FarthestCorner(a.loops, pose, b.loops) <= most &&
+           FarthestCorner(b.loops, pose.Inverse(), a.loops) <= most;
   });
 }
 

@@ -8,6 +8,7 @@
 
 #include "common/parallel.h"
 #include "pattern/equal_seams.h"
+#include "pattern/near_itself.h"
 #include "pattern/place_pieces.h"
 #include "pattern/surface/patch_darts.h"
 #include "planar/flatten.h"
@@ -193,6 +194,12 @@ int ChartsForPattern::EqualizeAllSeams(ChartIds& ids, SeamMask& seams) {
           continue;
         }
       }
+      const auto meeting = round < kRounds ? MeetsItself(chart) : std::nullopt;
+      if (meeting) {
+        PartChart(chart.patch, BisectBetween(chart.patch, meeting->first / 3, meeting->second / 3), next_id++,
+                  ids, seams);
+        continue;
+      }
       if (IsTooLarge(chart) && chart.patch.faces.size() > 1) {
         Store(chart.patch, chart.chart.uv / to_mm_);
         PartChart(chart.patch, Bisect(chart.patch), next_id++, ids, seams);
@@ -206,6 +213,20 @@ int ChartsForPattern::EqualizeAllSeams(ChartIds& ids, SeamMask& seams) {
     SplitAndCompact(surface_, ids, &seams);
   }
   return left;
+}
+
+std::optional<std::pair<int, int>> ChartsForPattern::MeetsItself(const Finished& chart) const {
+  if (params_.material != PatternMaterial::kFabric || !(params_.seam_allowance > 0)) return std::nullopt;
+  std::vector<char> in_chart(surface_.FaceCount(), 0), is_cut(chart.patch.HalfEdgeCount(), 0);
+  for (int f : chart.patch.faces) in_chart[f] = 1;
+  for (int h : chart.boundary) {
+    const int g = surface_.Neighbour(chart.patch.SurfaceHalfEdge(h));
+    is_cut[h] = g >= 0 && in_chart[g];
+  }
+  constexpr double kRoom = 1.25;  // allowances: below it is hard to cut
+  auto meeting = NearItself(chart.chart, chart.boundary, is_cut, kRoom * params_.seam_allowance);
+  if (meeting && meeting->first / 3 == meeting->second / 3) meeting.reset();
+  return meeting;
 }
 
 bool ChartsForPattern::IsTooLarge(const Finished& chart) const {
@@ -299,7 +320,7 @@ bool ChartsForPattern::TryJoin(int small, int other, ChartIds& ids, SeamMask& se
   const Flattening flat = dcharts::Flatten(patch.mesh, options, [&] { progress_.Poll(); });
   // A small part may stretch more than the rest: fabric gives, and a speck of paper is no worse than a gap.
   // One that nobody can sew or fold is worse than a little more.
-  constexpr double kFabricGives = 0.02, kPaperGives = 0.0003, kForUseless = 3;
+  constexpr double kFabricGives = 0.02, kPaperGives = 0.0001, kForUseless = 3;
   double area = 0;
   for (int f : faces) area += ids[f] == small ? surface_.Area(f) : 0;
   const double gives = params_.material == PatternMaterial::kFabric ? kFabricGives : kPaperGives;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/params.h"
@@ -38,7 +40,8 @@ class ChartsForPattern {
 
   /// Gives both sides of every seam the same length. A chart whose outline would cross itself then has its
   /// darts sewn up that cross, or is parted; so is one that
-  /// has to fit onto a page and doesn't. Returns how many charts were left with seams of unequal length.
+  /// leaves no room for its allowance, or has to fit onto a page and doesn't. Returns how many charts were
+  /// left with seams of unequal length.
   int EqualizeAllSeams(ChartIds& ids, SeamMask& seams);
 
   /// The flat charts in mm, at their places on the finished object. `data`, `source_face`: the mesh that the
@@ -50,6 +53,7 @@ class ChartsForPattern {
   struct Finished;
   FlatChart ChartOf(const ChartPatch& patch) const;
   void Finish(Finished& chart, const std::function<void()>& poll) const;
+  std::optional<std::pair<int, int>> MeetsItself(const Finished& chart) const;
   bool IsTooLarge(const Finished& chart) const;
   double UselessArea() const;  // a smaller piece can't be sewn or folded
   bool TryJoin(int small, int other, ChartIds& ids, SeamMask& seams);

@@ -33,7 +33,7 @@ Params ForMaterial(const Params& params) {
     if (params.max_stretch > 0) material.max_stretch = 1 + kFlatter * (params.StretchBound() - 1);
   } else {
     // Paper does not stretch. What little a chart still has is taken up by folding.
-    constexpr double kStrict = 1.00005;
+    constexpr double kStrict = 1.0001;
     material.method = FlattenMethod::kStretchMinimizing;
     material.max_stretch = std::min(params.StretchBound(), kStrict);
     material.max_dart_percent = std::max(params.max_dart_percent, Params().max_dart_percent);
@@ -67,7 +67,7 @@ void MakeChartsSymmetric(const SurfaceGraph<SurfaceMesh>& surface, const Params&
   mirrored = cut;
   if (!mirror_charts(looser.StretchBound(), mirrored)) return;
   ChartCutter<SurfaceMesh>(surface, uncut, progress).Run(mirrored, new_seams, flat);
-  MirrorDarts(surface, mirror, keep_above, cut, cut_seams, mirrored, new_seams);
+  MirrorCuts(surface, mirror, keep_above, cut, cut_seams, mirrored, new_seams);
   DropIneffectiveSeams(surface, new_seams);
   SplitAndCompact(surface, mirrored, &new_seams);
   if (TooManyCharts(ChartCount(ids), ChartCount(mirrored))) return;

@@ -232,10 +232,7 @@ bool HasShorterSeamsAbove(const Surface& surface, const MirrorPlane& mirror, con
   return seams[1] <= seams[0];
 }
 
-bool TooManyCharts(int before, int mirrored) {
-  constexpr double kMostMore = 1.5;
-  return mirrored > kMostMore * before + 1;
-}
+bool TooManyCharts(int before, int mirrored) { return mirrored > 2 * before + 1; }
 
 bool MirrorCharts(const Surface& surface, const MirrorPlane& mirror, bool keep_above, double stretch_bound,
                   Progress& progress, ChartIds& ids) {
@@ -280,8 +277,8 @@ bool MirrorCharts(const Surface& surface, const MirrorPlane& mirror, bool keep_a
   return true;
 }
 
-void MirrorDarts(const Surface& surface, const MirrorPlane& mirror, bool keep_above, const ChartIds& cut_ids,
-                 const SeamMask& cut_seams, const ChartIds& ids, SeamMask& seams) {
+void MirrorCuts(const Surface& surface, const MirrorPlane& mirror, bool keep_above, const ChartIds& cut_ids,
+                const SeamMask& cut_seams, const ChartIds& ids, SeamMask& seams) {
   const auto charts = FacesOfCharts(ids);
   const SeamMask borders = ChartBorders(surface, ids);
   PatchExtractor<SurfaceMesh> cut_extractor(surface, cut_seams), extractor(surface, borders);
@@ -289,6 +286,16 @@ void MirrorDarts(const Surface& surface, const MirrorPlane& mirror, bool keep_ab
     SetSeam(seams, h);
     if (surface.Opposite(h) >= 0) SetSeam(seams, surface.Opposite(h));
   };
+  if (mirror.exact) {
+    for (int h = 0; h < surface.HalfEdgeCount(); ++h) {
+      const int g = surface.Neighbour(h);
+      if (g < 0 || !IsSeam(cut_seams, h) || cut_ids[g] != cut_ids[h / 3]) continue;
+      if ((mirror.Height(surface.Centroid(h / 3)) > 0) != keep_above) continue;
+      mark(h);
+      mark(mirror.ImageOfEdge(h));
+    }
+    return;
+  }
   for (const auto& faces : FacesOfCharts(cut_ids)) {
     const ChartPatch patch = cut_extractor.Extract(faces);
     for (const PatchDart& dart : DartsOf(surface, patch)) {
@@ -300,9 +307,7 @@ void MirrorDarts(const Surface& surface, const MirrorPlane& mirror, bool keep_ab
       if (std::abs(height) > edge && (height > 0) != keep_above) continue;
       for (size_t k = 0; k < dart.arriving.size(); ++k) mark(edge_of(k));
       const int image = mirror.image[edge_of(0) / 3];
-      if (mirror.exact)
-        for (size_t k = 0; k < dart.arriving.size(); ++k) mark(mirror.ImageOfEdge(edge_of(k)));
-      if (mirror.exact || std::abs(height) <= edge || image < 0) continue;
+      if (std::abs(height) <= edge || image < 0) continue;
 
       const ChartPatch other = extractor.Extract(charts[ids[image]]);
       PatchPaths paths(other);

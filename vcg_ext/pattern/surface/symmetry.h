@@ -34,7 +34,7 @@ std::optional<MirrorPlane> FindMirrorPlane(const SurfaceGraph<SurfaceMesh>& surf
 bool HasShorterSeamsAbove(const SurfaceGraph<SurfaceMesh>& surface, const MirrorPlane& mirror,
                           const ChartIds& ids);
 
-/// Pairs are not worth so many more charts: about half as many again.
+/// Pairs are not worth more than twice as many charts.
 bool TooManyCharts(int before, int mirrored);
 
 /// Gives one half of the surface the mirror images of the other half's charts, so that a pattern has mirrored
@@ -44,9 +44,10 @@ bool TooManyCharts(int before, int mirrored);
 bool MirrorCharts(const SurfaceGraph<SurfaceMesh>& surface, const MirrorPlane& mirror, bool keep_above,
                   double stretch_bound, Progress& progress, ChartIds& ids);
 
-/// Darts of the half that stays, and their mirror images: `cut_ids` and `cut_seams` have darts, `ids` are the
-/// mirrored charts, whose `seams` get them.
-void MirrorDarts(const SurfaceGraph<SurfaceMesh>& surface, const MirrorPlane& mirror, bool keep_above,
-                 const ChartIds& cut_ids, const SeamMask& cut_seams, const ChartIds& ids, SeamMask& seams);
+/// Cuts within charts of the half that stays, and their mirror images; of a surface that isn't exactly
+/// symmetric only the darts. `cut_ids` and `cut_seams` have cuts, `ids` are the mirrored charts, whose
+/// `seams` get them.
+void MirrorCuts(const SurfaceGraph<SurfaceMesh>& surface, const MirrorPlane& mirror, bool keep_above,
+                const ChartIds& cut_ids, const SeamMask& cut_seams, const ChartIds& ids, SeamMask& seams);
 
 }  // namespace dcharts
