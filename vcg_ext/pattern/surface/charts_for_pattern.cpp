@@ -2,6 +2,7 @@
 #include "pattern/surface/charts_for_pattern.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "pattern/near_itself.h"
 #include "pattern/place_pieces.h"
 #include "pattern/surface/patch_darts.h"
+#include "planar/distortion.h"
 #include "planar/flatten.h"
 #include "planar/overlap.h"
 #include "surface/chart_patch.h"
@@ -74,7 +76,10 @@ void ChartsForPattern::Store(const ChartPatch& patch, const Points2& uv) {
 
 void ChartsForPattern::Flatten(ChartIds& ids, SeamMask& seams, const KnownFlattenings& known) {
   images_.Pair(ids);
-  wedge_ = Parameterizer<SurfaceMesh>(surface_, params_, known, progress_).LayFlatApart(ids, seams);
+  // Charts are as flat as they are to be; images of some stretch a little more than they.
+  Params flatten = params_;
+  if (flatten.max_stretch > 0) flatten.max_stretch = 1 + kImagesStretch * (params_.StretchBound() - 1);
+  wedge_ = Parameterizer<SurfaceMesh>(surface_, flatten, known, progress_).LayFlatApart(ids, seams);
   const auto follow = [&] {
     images_.Copy(ids, seams, wedge_);
     SplitAndCompact(surface_, ids, &seams);
@@ -200,7 +205,8 @@ int ChartsForPattern::EqualizeAllSeams(ChartIds& ids, SeamMask& seams) {
                   ids, seams);
         continue;
       }
-      if (IsTooLarge(chart) && chart.patch.faces.size() > 1) {
+      const bool may_part = chart.patch.faces.size() > 1;
+      if (may_part && (IsTooLarge(chart) || (IsOffInArea(chart) && round < kRounds))) {
         Store(chart.patch, chart.chart.uv / to_mm_);
         PartChart(chart.patch, Bisect(chart.patch), next_id++, ids, seams);
         continue;
@@ -227,6 +233,13 @@ std::optional<std::pair<int, int>> ChartsForPattern::MeetsItself(const Finished&
   auto meeting = NearItself(chart.chart, chart.boundary, is_cut, kRoom * params_.seam_allowance);
   if (meeting && meeting->first / 3 == meeting->second / 3) meeting.reset();
   return meeting;
+}
+
+bool ChartsForPattern::IsOffInArea(const Finished& chart) const {
+  if (params_.material != PatternMaterial::kPaper) return false;
+  constexpr double kMost = 0.03;
+  const StretchFigures figures = MeasureStretch(chart.chart.mesh, chart.chart.uv);
+  return std::abs(figures.UvArea() - figures.SurfaceArea()) > kMost * figures.SurfaceArea();
 }
 
 bool ChartsForPattern::IsTooLarge(const Finished& chart) const {
@@ -320,7 +333,7 @@ bool ChartsForPattern::TryJoin(int small, int other, ChartIds& ids, SeamMask& se
   const Flattening flat = dcharts::Flatten(patch.mesh, options, [&] { progress_.Poll(); });
   // A small part may stretch more than the rest: fabric gives, and a speck of paper is no worse than a gap.
   // One that nobody can sew or fold is worse than a little more.
-  constexpr double kFabricGives = 0.02, kPaperGives = 0.0001, kForUseless = 3;
+  constexpr double kFabricGives = 0.02, kPaperGives = 0.0001, kForUseless = 5;
   double area = 0;
   for (int f : faces) area += ids[f] == small ? surface_.Area(f) : 0;
   const double gives = params_.material == PatternMaterial::kFabric ? kFabricGives : kPaperGives;

@@ -18,6 +18,9 @@
 
 namespace dcharts {
 
+/// Charts that are mirror images of others may exceed the bound on stretch by as much.
+constexpr double kImagesStretch = 1.5;
+
 /// Lays charts flat for a pattern (Section 4): overlaps are cut off, darts that are not needed are shortened.
 class ChartsForPattern {
  public:
@@ -40,8 +43,8 @@ class ChartsForPattern {
 
   /// Gives both sides of every seam the same length. A chart whose outline would cross itself then has its
   /// darts sewn up that cross, or is parted; so is one that
-  /// leaves no room for its allowance, or has to fit onto a page and doesn't. Returns how many charts were
-  /// left with seams of unequal length.
+  /// leaves no room for its allowance, loses or gains area though it is of paper, or has to fit onto a page
+  /// and doesn't. Returns how many charts were left with seams of unequal length.
   int EqualizeAllSeams(ChartIds& ids, SeamMask& seams);
 
   /// The flat charts in mm, at their places on the finished object. `data`, `source_face`: the mesh that the
@@ -54,6 +57,7 @@ class ChartsForPattern {
   FlatChart ChartOf(const ChartPatch& patch) const;
   void Finish(Finished& chart, const std::function<void()>& poll) const;
   std::optional<std::pair<int, int>> MeetsItself(const Finished& chart) const;
+  bool IsOffInArea(const Finished& chart) const;
   bool IsTooLarge(const Finished& chart) const;
   double UselessArea() const;  // a smaller piece can't be sewn or folded
   bool TryJoin(int small, int other, ChartIds& ids, SeamMask& seams);

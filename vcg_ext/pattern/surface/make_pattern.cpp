@@ -58,6 +58,7 @@ void MakeChartsSymmetric(const SurfaceGraph<SurfaceMesh>& surface, const Params&
   // than they: they are not to be parted for that.
   Params looser = params, uncut = params;
   constexpr double kLooser = 1.3;
+  static_assert(kLooser < kImagesStretch);
   if (params.max_stretch > 0) looser.max_stretch = 1 + kLooser * (params.StretchBound() - 1);
   uncut.max_stretch = uncut.max_dart_percent = 0;
   ChartIds cut = mirrored;
