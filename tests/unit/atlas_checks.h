@@ -246,6 +246,24 @@ inline Stretch StretchOf(const SurfaceData& mesh, const std::vector<std::array<f
   return {std::sqrt(squares / area3 * area2 / area3), worst * std::sqrt(area2 / area3)};
 }
 
+/// The largest L2 stretch of a chart at its own scale.
+inline double WorstChartStretch(const SurfaceData& mesh, const SurfaceChange& atlas) {
+  double worst = 1;
+  const int last = *std::max_element(atlas.chart_ids.begin(), atlas.chart_ids.end());
+  for (int c = 0; c <= last; ++c) {
+    SurfaceData chart;
+    chart.vertices = mesh.vertices;
+    std::vector<std::array<float, 6>> uv;
+    for (size_t f = 0; f < mesh.faces.size(); ++f) {
+      if (atlas.chart_ids[f] != c) continue;
+      chart.faces.push_back(mesh.faces[f]);
+      uv.push_back(atlas.wedge_texcoords[f]);
+    }
+    worst = std::max(worst, StretchOf(chart, uv).l2);
+  }
+  return worst;
+}
+
 /// What is promised of a finished atlas. Returns what is wrong, a line each; empty when all is well.
 inline std::string WrongInAtlas(const SurfaceData& mesh, const SurfaceChange& atlas, bool disks) {
   std::ostringstream wrong;

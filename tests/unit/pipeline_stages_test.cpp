@@ -209,6 +209,31 @@ TEST(Stages, ParameterizeCutsWhatNobodyCut) {
   }
 }
 
+TEST(Stages, ParameterizePartsWhatIsAboveMaxStretch) {
+  for (SurfaceData mesh : {shapes::SphericalCap(8, 1.5), shapes::Torus(10), shapes::Cube(4)}) {
+    mesh.face_quality.assign(mesh.faces.size(), 0);
+    mesh.seams.assign(mesh.faces.size(), 0);
+    Progress progress;
+    Params params;
+    const SurfaceChange parted = Parameterize(mesh, params, progress);
+    EXPECT_EQ(test::WrongInAtlas(mesh, parted, false), "");
+    EXPECT_LT(test::WorstChartStretch(mesh, parted), params.max_stretch + 1e-4);
+    params.max_stretch = 0;
+    const SurfaceChange whole = Parameterize(mesh, params, progress);
+    EXPECT_GT(test::WorstChartStretch(mesh, whole), Params().max_stretch);
+  }
+}
+
+TEST(Stages, DartsByFittingErrorLeaveNoChartAboveMaxStretch) {
+  for (SurfaceData mesh : {shapes::SphericalCap(8, 1.5), shapes::Torus(10), shapes::Sphere(5)}) {
+    Params params;
+    params.dart_by = DartMethod::kFittingError;
+    params.seed_percent = params.seam_weight = 0;
+    const SurfaceChange atlas = RunAll(mesh, params, Kept::kAll, kAllStages);
+    EXPECT_LT(test::WorstChartStretch(mesh, atlas), params.max_stretch + 1e-4);
+  }
+}
+
 TEST(Stages, ParameterizeKeepsTheUsersSeams) {
   // A slit in a flat sheet that nobody needs: it is in the attribute, so it stays.
   SurfaceData mesh = shapes::Grid(8, 8);

@@ -13,6 +13,7 @@
 #include "common/parallel.h"
 #include "common/params.h"
 #include "common/progress.h"
+#include "planar/distortion.h"
 #include "planar/flatten.h"
 #include "planar/overlap.h"
 #include "planar/packing.h"
@@ -88,6 +89,7 @@ class Parameterizer {
     std::string why{};
     std::string note{};  // why it has the least stretch instead of being conformal
     double l2_stretch = 1;
+    bool is_new = false;  // it had a place, and was laid flat anew
   };
 
   bool AllDisks(const ChartIds& ids, const SeamMask& seams) const {
@@ -127,12 +129,23 @@ class Parameterizer {
     if (state == State::kToCheck) {
       piece.uv = StoredUv(piece.patch);
       piece.flat = true;
+      piece.l2_stretch = MeasureStretch(piece.patch.mesh, piece.uv).L2();
+      if (IsAboveBound(piece)) {
+        LayFlat(piece, params_.method, poll);
+        piece.is_new = true;
+      }
     } else {
       if (all_disks_ && LoopsOf(piece.patch).size() > 1) return;  // a part of a disk must become a disk again
       LayFlat(piece, params_.method, poll);
     }
     if (piece.flat)
       piece.overlaps = OverlappingPairs(OnGrid(piece.uv, piece.patch.mesh.triangles), kMostOverlaps);
+  }
+
+  // Without a number of charts to keep to, no chart is to be above params.max_stretch.
+  bool IsAboveBound(const Piece& piece) const {
+    return params_.method == FlattenMethod::kStretchMinimizing && params_.target_charts == 0 &&
+           piece.l2_stretch > params_.StretchBound();
   }
 
   void LayFlat(Piece& piece, FlattenMethod method, const std::function<void()>& poll) const {
@@ -189,9 +202,13 @@ class Parameterizer {
   // Keeps a good piece, cuts or splits another.
   void Settle(const Piece& piece, ChartIds& ids, SeamMask& seams, int& next_id) {
     const ChartPatch& patch = piece.patch;
+    if (piece.flat && IsAboveBound(piece) && patch.faces.size() > 1) {
+      SplitPiece(patch, Bisect(patch), State::kToFlatten, ids, seams, next_id);
+      return;
+    }
     if (piece.flat && piece.overlaps.empty()) {
       // One that kept its place has it stored already, with the note on how it was flattened.
-      if (state_[patch.faces.front()] != State::kToCheck) Store(piece);
+      if (state_[patch.faces.front()] != State::kToCheck || piece.is_new) Store(piece);
       for (int f : patch.faces) state_[f] = State::kDone;
       return;
     }
@@ -200,7 +217,7 @@ class Parameterizer {
       constexpr int kFreshTries = 3;
       const bool inherit = ++splits_[patch.faces.front()] > kFreshTries;
       for (int f : patch.faces) splits_[f] = splits_[patch.faces.front()];
-      if (inherit && state_[patch.faces.front()] != State::kToCheck) Store(piece);
+      if (inherit && (state_[patch.faces.front()] != State::kToCheck || piece.is_new)) Store(piece);
       SplitPiece(patch, SplitAtOverlaps(patch, piece.overlaps), inherit ? State::kToCheck : State::kToFlatten,
                  ids, seams, next_id);
       MarkCutOff(patch, ids);
