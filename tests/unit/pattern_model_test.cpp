@@ -106,6 +106,18 @@ TEST_P(PatternOfShape, CanBeSewnBackToTheModel) {
   EXPECT_NEAR(model / (mesh_area * pattern.scale * pattern.scale), 1, paper ? 1e-9 : 0.002);
 }
 
+TEST(PatternModel, SaysHowManyPointsEachPieceHas) {
+  std::string log;
+  Progress progress({}, [&](const std::string& line) { log += line + "\n"; });
+  Params params = Paper();
+  params.size = 100;
+  const Pattern pattern = MakePattern(shapes::Cube(4), params, progress).pattern;
+  std::string line = "Points of the outlines:";
+  for (const Piece& piece : pattern.pieces)
+    line += (piece.id > 0 ? ", " : " ") + piece.name + " " + std::to_string(piece.loops.front().size());
+  EXPECT_NE(log.find(line + "."), std::string::npos) << log;
+}
+
 TEST_P(PatternOfShape, HasEveryEdgeInASeamAndEveryFaceInAPiece) {
   const shapes::Shape shape = shapes::ShapeByName(GetParam().shape);
   const Pattern pattern = PatternOf(shape.mesh, GetParam().paper ? Paper() : Params());

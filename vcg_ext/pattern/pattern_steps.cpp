@@ -63,6 +63,16 @@ Pattern SimplifiedPieces(const FlatCharts& charts, const SeamGraph& graph, const
   return pattern;
 }
 
+std::string PointsOfOutlines(const Pattern& pattern) {
+  std::string line = "Points of the outlines:";
+  for (const Piece& piece : pattern.pieces) {
+    std::size_t points = 0;
+    for (const OutlineLoop& loop : piece.loops) points += loop.size();
+    line += (piece.id > 0 ? ", " : " ") + piece.name + " " + std::to_string(points);
+  }
+  return line + ".";
+}
+
 }  // namespace
 
 Pattern PatternOfCharts(FlatCharts charts, const Params& params, Progress& progress, double from, double to) {
@@ -115,6 +125,7 @@ Pattern PatternOfCharts(FlatCharts charts, const Params& params, Progress& progr
   constexpr double kGap = 4;  // mm between pieces: room for scissors
   PlacePieces(params.page, params.rotate, kGap, poll, pattern);
   for (const std::string& warning : pattern.warnings) progress.Log(warning);
+  progress.Log(PointsOfOutlines(pattern));
   return pattern;
 }
 
