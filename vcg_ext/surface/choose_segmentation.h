@@ -14,8 +14,8 @@
 
 namespace dcharts {
 
-/// Segment: one segmentation, or, where params.target_charts tells what is to become of it, several with
-/// different numbers of seeds, of which the one is taken that merges best. How well a segmentation merges
+/// Segment: one segmentation, or, where params.target_charts tells what is to become of it, two with
+/// different numbers of seeds, of which the one is taken that merges better. How well a segmentation merges
 /// varies by some percent from one to the next, and can't be told from its own figures.
 template <class MeshType>
 class SegmentationChooser {
