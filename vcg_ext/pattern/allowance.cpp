@@ -26,6 +26,16 @@ bool IsWithinDart(const Pattern& pattern, const Piece& piece, const Polyline& ho
   return true;
 }
 
+// Whether the hole's edge is as far from the net outline as it should be. In a narrow hole it may not be.
+bool IsClearOf(const Region& net, const Polyline& hole, double allowance) {
+  constexpr double kNearly = 0.9;
+  for (const Polyline& loop : net)
+    for (size_t k = 0; k < loop.size(); ++k)
+      for (const Point2& p : hole)
+        if (DistanceToSegment(p, loop[k], loop[(k + 1) % loop.size()]) < kNearly * allowance) return false;
+  return true;
+}
+
 }  // namespace
 
 void AddAllowances(double allowance, Pattern& pattern) {
@@ -58,8 +68,10 @@ void AddAllowances(double allowance, Pattern& pattern) {
                                        [&](const Polyline& loop) { return IsInside({loop}, hole.front()); });
       // What the two legs of a dart enclose is fabric to fold; any other pocket has to be cut out.
       const bool is_pocket = !is_hole && !IsWithinDart(pattern, piece, hole, allowance);
-      if (is_pocket && (tight.empty() || tight.back() != piece.id)) tight.push_back(piece.id);
-      if (is_hole || is_pocket) piece.cut.push_back(hole);
+      const bool is_clear = IsClearOf(net, hole, allowance);
+      if ((is_pocket || (is_hole && !is_clear)) && (tight.empty() || tight.back() != piece.id))
+        tight.push_back(piece.id);
+      if ((is_hole && is_clear) || is_pocket) piece.cut.push_back(hole);
     }
   }
   if (!tight.empty())
