@@ -68,10 +68,10 @@ void AddAllowances(double allowance, Pattern& pattern) {
                                        [&](const Polyline& loop) { return IsInside({loop}, hole.front()); });
       // What the two legs of a dart enclose is fabric to fold; any other pocket has to be cut out.
       const bool is_pocket = !is_hole && !IsWithinDart(pattern, piece, hole, allowance);
+      if (!is_hole && !is_pocket) continue;
       const bool is_clear = IsClearOf(net, hole, allowance);
-      if ((is_pocket || (is_hole && !is_clear)) && (tight.empty() || tight.back() != piece.id))
-        tight.push_back(piece.id);
-      if ((is_hole && is_clear) || is_pocket) piece.cut.push_back(hole);
+      if ((is_pocket || !is_clear) && (tight.empty() || tight.back() != piece.id)) tight.push_back(piece.id);
+      if (is_clear) piece.cut.push_back(hole);
     }
   }
   if (!tight.empty())
