@@ -262,9 +262,8 @@ std::vector<ParamSpec> MakeParams() {
        {"Tile", "Split Piece"}},
       {"output_file", "File to write",
        "The drawing for printer, cutter or plotter, with all notation: SVG, PDF or DXF by its ending. A "
-       "relative name is relative to the working directory. Empty writes none and only adds the layer. In "
-       "the "
-       "window of MeshLab 2020.09 choose it with the button: a name typed there is not taken.",
+       "relative name is relative to the working directory. Empty writes none and only adds the layer. "
+       "In the window of MeshLab 2020.09 choose it with the button: a name typed there is not taken.",
        &Params::output_file},
   };
 }

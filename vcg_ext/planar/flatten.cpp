@@ -139,7 +139,7 @@ Flattening Flatten(const ChartMesh& chart, const FlattenOptions& options, const 
     note = conformal.note;
   }
   PlanePoints uv;
-  double energy = FlattenStart(normalized.mesh, shapes, options.start, system, poll, uv);
+  double energy = FlattenStart(normalized.mesh, shapes, nullptr, system, poll, uv);
   if (!std::isfinite(energy)) {
     return Failure("No flat start without flipped triangles was found: the chart has to be cut.");
   }

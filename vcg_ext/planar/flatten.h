@@ -15,8 +15,6 @@ struct FlattenOptions {
   bool linf_finish = true;  ///< lower the worst stretch after the mean stretch; not of conformal maps
   /// Lowering the worst stretch doesn't lift the L2 stretch of a chart that is within this above it; >= 1.
   double l2_bound = std::numeric_limits<double>::infinity();
-  /// UVs to start from, #V by 2 in any scale, as TrialOptions::start; not of conformal maps. May be null.
-  const Points2* start = nullptr;
 };
 
 struct Flattening {

@@ -89,7 +89,7 @@ class Parameterizer {
     std::string why{};
     std::string note{};  // why it has the least stretch instead of being conformal
     double l2_stretch = 1;
-    bool is_new = false;  // it had a place, and was laid flat anew
+    bool is_new = false;  // `uv` is not what is stored of it
   };
 
   bool AllDisks(const ChartIds& ids, const SeamMask& seams) const {
@@ -132,7 +132,6 @@ class Parameterizer {
       piece.l2_stretch = MeasureStretch(piece.patch.mesh, piece.uv).L2();
       if (IsAboveBound(piece)) {
         LayFlat(piece, params_.method, poll);
-        piece.is_new = true;
       }
     } else {
       if (all_disks_ && LoopsOf(piece.patch).size() > 1) return;  // a part of a disk must become a disk again
@@ -155,6 +154,7 @@ class Parameterizer {
     const Flattening* known =
         method == FlattenMethod::kStretchMinimizing ? known_.Find(piece.patch) : nullptr;
     Flattening flat = known ? *known : Flatten(piece.patch.mesh, options, poll);
+    piece.is_new = true;
     piece.flat = flat.ok;
     piece.why = std::move(flat.why);
     piece.note = std::move(flat.note);
@@ -208,7 +208,7 @@ class Parameterizer {
     }
     if (piece.flat && piece.overlaps.empty()) {
       // One that kept its place has it stored already, with the note on how it was flattened.
-      if (state_[patch.faces.front()] != State::kToCheck || piece.is_new) Store(piece);
+      if (piece.is_new) Store(piece);
       for (int f : patch.faces) state_[f] = State::kDone;
       return;
     }
@@ -217,7 +217,7 @@ class Parameterizer {
       constexpr int kFreshTries = 3;
       const bool inherit = ++splits_[patch.faces.front()] > kFreshTries;
       for (int f : patch.faces) splits_[f] = splits_[patch.faces.front()];
-      if (inherit && (state_[patch.faces.front()] != State::kToCheck || piece.is_new)) Store(piece);
+      if (inherit && piece.is_new) Store(piece);
       SplitPiece(patch, SplitAtOverlaps(patch, piece.overlaps), inherit ? State::kToCheck : State::kToFlatten,
                  ids, seams, next_id);
       MarkCutOff(patch, ids);

@@ -175,21 +175,17 @@ class DartSearch {
          chart_.count < goal_.most_darts && failures < kMostFailures && !Reached(chart_.flat, goal_);) {
       PatchPaths paths(chart_.patch);
       paths.Run(paths.BoundaryVertices(), true);
-      const int worst = FindWorst(paths);
+      const std::vector<double> stretch = VertexStretch(chart_.patch, chart_.flat.uv);
+      const int worst = Best(paths, [&](int v) { return stretch[v]; });
       if (worst < 0) return;
-      if (CutBest(paths, worst)) continue;
+      if (CutBest(paths, stretch, worst)) continue;
       ++failures;
       GiveUpAround(worst, paths.Distance(chart_.patch.Vertex(worst)));
     }
   }
 
  private:
-  // A corner at the vertex that is stretched most of those that a dart may go to; -1 when there is none.
-  int FindWorst(const PatchPaths& paths) const {
-    const std::vector<double> stretch = VertexStretch(chart_.patch, chart_.flat.uv);
-    return Best(paths, [&](int v) { return stretch[v]; });
-  }
-
+  // A corner at the vertex of the largest value of those that a dart may go to; -1 when there is none.
   template <class Value>
   int Best(const PatchPaths& paths, const Value& value) const {
     const double reach = std::min(goal_.longest, goal_.most_length - total_length_);
@@ -202,14 +198,14 @@ class DartSearch {
     return best;
   }
 
-  // Cuts the best dart to the worst corner or the innermost one, if any helps.
-  bool CutBest(const PatchPaths& paths, int worst) {
+  // Cuts the best dart to the worst corner or the innermost one, if any helps. `stretch`: per vertex.
+  bool CutBest(const PatchPaths& paths, const std::vector<double>& stretch, int worst) {
     std::vector<int> tips{worst};
     // A dart relieves a disk as wide as it is long, so the mean stretch around its tip counts for more than
     // that at it. A round chart is stretched most at its rim, and yet a cut to its middle may relieve it
     // more.
     if (chart_.flat.l2_stretch > goal_.l2_stretch) {
-      const std::vector<double> around = Smoothed(chart_.patch, VertexStretch(chart_.patch, chart_.flat.uv));
+      const std::vector<double> around = Smoothed(chart_.patch, stretch);
       for (const int tip : {Best(paths, [&](int v) { return around[v]; }),
                             Best(paths, [&](int v) { return paths.Distance(v); })})
         if (std::find(tips.begin(), tips.end(), tip) == tips.end()) tips.push_back(tip);
@@ -277,19 +273,17 @@ class DartSearch {
   std::vector<char> hopeless_;       // faces
 };
 
-// Darts that bring the L2 stretch within the goal, whatever becomes of the worst stretch; returns whether it
-// is.
+// Darts that bring the L2 stretch within a goal with finish, whatever becomes of the worst stretch; returns
+// whether it is.
 bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart) {
   DartGoal mean = goal;
   mean.linf_stretch = std::numeric_limits<double>::infinity();
   DartedChart darted = chart;
-  if (HasFinish(goal)) darted.flat = FlatWithoutFinish(chart.patch, &chart.flat.uv, poll);
+  darted.flat = FlatWithoutFinish(chart.patch, &chart.flat.uv, poll);
   DartSearch(mean, poll, darted).Run();
   if (darted.count == 0) return false;
-  if (HasFinish(goal)) {
-    darted.flat = FlatWithFinish(darted.patch, goal, poll);
-    if (!darted.flat.ok || Overlaps(darted)) return false;
-  }
+  darted.flat = FlatWithFinish(darted.patch, goal, poll);
+  if (!darted.flat.ok || Overlaps(darted)) return false;
   chart = std::move(darted);
   return chart.flat.l2_stretch <= goal.l2_stretch;
 }
@@ -306,7 +300,8 @@ DartedChart CutStretchDarts(const ChartPatch& patch, const Flattening* known, co
     chart.flat =
         HasFinish(goal) ? FlatWithFinish(patch, goal, poll) : FlatWithoutFinish(patch, nullptr, poll);
   if (!chart.flat.ok || CutConePoints(goal, poll, chart)) return chart;
-  if (chart.flat.l2_stretch > goal.l2_stretch && !CutForMeanStretch(goal, poll, chart)) return chart;
+  if (HasFinish(goal) && chart.flat.l2_stretch > goal.l2_stretch && !CutForMeanStretch(goal, poll, chart))
+    return chart;
   DartSearch(goal, poll, chart).Run();
   return chart;
 }

@@ -32,10 +32,9 @@ struct DartedChart {
 
 /// Darts by measured stretch: flattens the chart, cuts from the border to the place that is stretched most,
 /// and flattens it again, until the goal is reached (without the finish that lowers the worst stretch when
-/// that is no part of the goal). A dart that doesn't help, or makes the chart overlap
-/// itself, is taken back. A chart that is developable but for some points gets a dart to each of these. The
-/// patch must be one that can be flattened; `known` is its flattening by the same goal, or null. `poll` may
-/// throw to stop the work.
+/// that is no part of the goal). A dart that doesn't help, or makes the chart overlap itself, is taken back.
+/// A chart that is developable but for some points gets a dart to each of these. The patch must be one that
+/// can be flattened; `known` is its flattening by the same goal, or null. `poll` may throw to stop the work.
 DartedChart CutStretchDarts(const ChartPatch& patch, const Flattening* known, const DartGoal& goal,
                             const std::function<void()>& poll);
 

@@ -13,13 +13,6 @@
 
 namespace dcharts {
 
-double LongestSide(const SurfaceData& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const auto& face : mesh.faces)
-    for (int v : face) box.extend(PositionOf(mesh, v));
-  return box.sizes().maxCoeff();
-}
-
 void BaseMesh::Take(SurfaceData& here, SurfaceData mesh) {
   here = std::move(mesh);
   mesh_ = &here;
@@ -62,11 +55,12 @@ void BaseMesh::ToUsersFaces(Pattern& pattern) const {
   for (const Piece& piece : pattern.pieces)
     for (int f : piece.flat.face) piece_of_face[f] = piece.id;
   if (mesh_ == &users_) return;
-  const std::vector<int> users = FacesAtPlacesOf(*mesh_, users_);
+  const FaceTree base_tree(*mesh_), users_tree(users_);
+  const std::vector<int> users = FacesAtPlacesOf(base_tree, users_tree);
   for (Piece& piece : pattern.pieces)
     for (int& f : piece.flat.face) f = users[f];
   std::vector<int> pieces;
-  for (int f : FacesAtPlacesOf(users_, *mesh_)) pieces.push_back(piece_of_face[f]);
+  for (int f : FacesAtPlacesOf(users_tree, base_tree)) pieces.push_back(piece_of_face[f]);
   piece_of_face = std::move(pieces);
 }
 

@@ -46,7 +46,4 @@ class BaseMesh {
   std::optional<MirrorPlane> mirror_;
 };
 
-/// The longest side of the box of the vertices that faces use.
-double LongestSide(const SurfaceData& mesh);
-
 }  // namespace dcharts

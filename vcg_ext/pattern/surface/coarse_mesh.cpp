@@ -33,9 +33,7 @@ std::optional<SurfaceData> CoarseMesh(const SurfaceData& data, const SurfaceGrap
   constexpr double kMore = 1.5, kOfSize = 4e-3, kArea = 3e-3;
   const double gives = material == PatternMaterial::kFabric ? 2 : 1;
   if (surface.FaceCount() < kMore * kEnough || !IsManifold(surface)) return std::nullopt;
-  Eigen::AlignedBox3d box;
-  for (const auto& face : data.faces)
-    for (int v : face) box.extend(PositionOf(data, v));
+  const double distance = gives * kOfSize * LongestSide(data);
   const ChartIds one_chart(surface.FaceCount(), 0);
   for (double faces = kEnough; kMore * faces <= surface.FaceCount(); faces *= kMore) {
     const CoarseSurface coarse = CoarsenCharts(surface, one_chart, static_cast<int>(faces));
@@ -46,7 +44,7 @@ std::optional<SurfaceData> CoarseMesh(const SurfaceData& data, const SurfaceGrap
       for (int k = 0; k < 3; ++k)
         mesh.faces.back()[k] = static_cast<int>(vcg::tri::Index(*coarse.mesh, face.cV(k)));
     }
-    if (AreSameShape(data, mesh, gives * kOfSize * box.sizes().maxCoeff(), gives * kArea)) return mesh;
+    if (AreSameShape(data, mesh, distance, gives * kArea)) return mesh;
   }
   return std::nullopt;
 }

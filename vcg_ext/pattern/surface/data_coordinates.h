@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "common/surface_data.h"
 #include "surface/surface_mesh.h"
 #include "surface/surface_graph.h"
@@ -9,6 +11,14 @@ namespace dcharts {
 
 inline Eigen::Vector3d PositionOf(const SurfaceData& data, int vertex) {
   return {data.vertices[vertex][0], data.vertices[vertex][1], data.vertices[vertex][2]};
+}
+
+/// The longest side of the box of the vertices that faces use.
+inline double LongestSide(const SurfaceData& data) {
+  Eigen::AlignedBox3d box;
+  for (const auto& face : data.faces)
+    for (int v : face) box.extend(PositionOf(data, v));
+  return box.sizes().maxCoeff();
 }
 
 /// From the coordinates of a surface to those of the data it was made of, which it has moved and scaled.

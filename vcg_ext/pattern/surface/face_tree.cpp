@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "pattern/surface/data_coordinates.h"
+
 namespace dcharts {
 namespace {
 
@@ -35,10 +37,7 @@ Vector3d NearestOnTriangle(const Vector3d& p, const std::array<Vector3d, 3>& cor
 FaceTree::FaceTree(const SurfaceData& mesh) {
   for (const auto& face : mesh.faces) {
     Face f;
-    for (int k = 0; k < 3; ++k) {
-      const auto& v = mesh.vertices[face[k]];
-      f.corners[k] = {v[0], v[1], v[2]};
-    }
+    for (int k = 0; k < 3; ++k) f.corners[k] = PositionOf(mesh, face[k]);
     f.centroid = (f.corners[0] + f.corners[1] + f.corners[2]) / 3;
     const Vector3d n = (f.corners[1] - f.corners[0]).cross(f.corners[2] - f.corners[0]);
     f.normal = n.norm() > 0 ? Vector3d(n.normalized()) : Vector3d::Zero();

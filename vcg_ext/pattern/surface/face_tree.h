@@ -26,6 +26,7 @@ class FaceTree {
   /// Of the faces that look about the same way as `normal`; of all where none does.
   Nearest FindFacing(const Eigen::Vector3d& p, const Eigen::Vector3d& normal) const;
 
+  int FaceCount() const { return static_cast<int>(faces_.size()); }
   const Eigen::Vector3d& Centroid(int face) const { return faces_[face].centroid; }
   const Eigen::Vector3d& Normal(int face) const { return faces_[face].normal; }  ///< unit length, or zero
 

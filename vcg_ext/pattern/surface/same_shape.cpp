@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "pattern/surface/data_coordinates.h"
-#include "pattern/surface/face_tree.h"
 
 namespace dcharts {
 namespace {
@@ -37,11 +36,10 @@ bool AreSameShape(const SurfaceData& a, const SurfaceData& b, double distance, d
          IsWithin(b, FaceTree(a), distance);
 }
 
-std::vector<int> FacesAtPlacesOf(const SurfaceData& from, const SurfaceData& to) {
-  const FaceTree places(from), tree(to);
+std::vector<int> FacesAtPlacesOf(const FaceTree& from, const FaceTree& to) {
   std::vector<int> faces;
-  for (int f = 0; f < static_cast<int>(from.faces.size()); ++f)
-    faces.push_back(tree.FindFacing(places.Centroid(f), places.Normal(f)).face);
+  for (int f = 0; f < from.FaceCount(); ++f)
+    faces.push_back(to.FindFacing(from.Centroid(f), from.Normal(f)).face);
   return faces;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/surface_data.h"
+#include "pattern/surface/face_tree.h"
 
 namespace dcharts {
 
@@ -12,6 +13,6 @@ namespace dcharts {
 bool AreSameShape(const SurfaceData& a, const SurfaceData& b, double distance, double area_share);
 
 /// Per face of `from` the face of `to` at its place, which looks the same way.
-std::vector<int> FacesAtPlacesOf(const SurfaceData& from, const SurfaceData& to);
+std::vector<int> FacesAtPlacesOf(const FaceTree& from, const FaceTree& to);
 
 }  // namespace dcharts
