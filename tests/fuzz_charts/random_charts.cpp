@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <random>
 #include <set>
 #include <utility>
 #include <vector>
@@ -13,27 +12,10 @@
 #include <Eigen/Geometry>
 
 #include "common/pi.h"
+#include "random.h"
 
 namespace dcharts::fuzz {
 namespace {
-
-// The standard's distributions differ between libraries, its engines don't.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double Real(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  int Int(int low, int high) {  // both included
-    return low + static_cast<int>(engine_() % static_cast<std::uint64_t>(high - low + 1));
-  }
-  double Log(double low, double high) { return std::exp(Real(std::log(low), std::log(high))); }
-  bool Chance(double probability) { return Real(0, 1) < probability; }
-  Eigen::Vector3d Vector() { return {Real(-1, 1), Real(-1, 1), Real(-1, 1)}; }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 struct Builder {
   std::vector<Eigen::Vector3d> positions;
