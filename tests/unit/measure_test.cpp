@@ -243,9 +243,15 @@ TEST(Measure, AnyFloatIsTaken) {
     EXPECT_TRUE(report.charts.has_value());
     if (!std::isfinite(bad)) {
       EXPECT_TRUE(std::isinf(*report.linf_stretch)) << bad;
+      EXPECT_EQ(report.degenerate_faces, 1) << bad;
+      EXPECT_EQ(report.flipped_faces, 0) << bad;
+      EXPECT_EQ(report.overlapping_faces, 0) << bad;
+      EXPECT_NEAR(*report.packing_efficiency, 127.0 / 128, 1e-6) << bad << ": the others fill the square";
     }
-    for (auto& t : mesh.wedge_texcoords) t.fill(bad);
-    MeasureLogged(mesh);
+    // Different places, so that they are not taken for no texcoords at all.
+    for (size_t f = 0; f < mesh.wedge_texcoords.size(); ++f)
+      mesh.wedge_texcoords[f] = {bad, 0, bad, 1, bad, f % 2 == 0 ? 0.5f : bad};
+    EXPECT_FALSE(std::isnan(*MeasureLogged(mesh).packing_efficiency)) << bad;
   }
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -14,9 +16,23 @@
 
 namespace dcharts {
 
+/// A face with a texcoord that is infinite or not a number gets none: its corners are put in one place, which
+/// is a place of another face, so that the others are measured as if it were not there.
+inline WedgeTexcoords WithFiniteTexcoords(WedgeTexcoords uv) {
+  const auto finite = [](const std::array<float, 6>& t) {
+    return std::all_of(t.begin(), t.end(), [](float x) { return std::isfinite(x); });
+  };
+  const auto good = std::find_if(uv.begin(), uv.end(), finite);
+  std::array<float, 6> nowhere{};
+  for (std::size_t k = 0; k < 6 && good != uv.end(); ++k) nowhere[k] = (*good)[k % 2];
+  for (auto& t : uv)
+    if (!finite(t)) t = nowhere;
+  return uv;
+}
+
 /// Distortion, flips, overlaps and packing of texcoords as they stand. Charts may be mirrored: a face is
 /// flipped when its orientation is not that of the larger part of its chart's area. `ids`: charts, connected
-/// over equal texcoords.
+/// over equal texcoords. Texcoords must be finite.
 template <class MeshType>
 void MeasureAtlas(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, const WedgeTexcoords& uv,
                   Report& report) {

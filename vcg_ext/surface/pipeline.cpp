@@ -230,7 +230,7 @@ SurfaceChange Measure(const SurfaceData& mesh, const Params&, Progress& progress
   for (const auto& t : uv)
     outside += std::any_of(t.begin(), t.end(), [](float x) { return !(x >= 0 && x <= 1); });
   if (outside > 0) progress.Log(std::to_string(outside) + " faces have texture coordinates outside [0,1].");
-  MeasureAtlas(work.Surface(), ids, uv, change.report);
+  MeasureAtlas(work.Surface(), ids, WithFiniteTexcoords(uv), change.report);
   return change;
 }
 
