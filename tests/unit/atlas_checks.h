@@ -243,6 +243,7 @@ inline Stretch StretchOf(const SurfaceData& mesh, const std::vector<std::array<f
     squares += area * (a11 * a11 + a12 * a12 + a21 * a21 + a22 * a22) / 2;
     worst = std::max(worst, largest);
   }
+  if (!(area3 > 0)) return {};
   return {std::sqrt(squares / area3 * area2 / area3), worst * std::sqrt(area2 / area3)};
 }
 
