@@ -47,25 +47,33 @@ def svg_texts(path):
     return {group.get('id'): [t.text for t in group.iter(f'{SVG}text')] for group in root.findall(f'{SVG}g')}
 
 
-def dxf_pieces(path):
-    """{piece number: {layer: [(points, closed)]}} of a DXF."""
+def dxf_points(polyline):
+    return np.array([v.dxf.location for v in polyline.vertices])[:, :2]
+
+
+def dxf_lines(path):
+    """(piece number, POLYLINE) of all lines in the pieces of a DXF, in the file's order."""
     import ezdxf
     document = ezdxf.readfile(path)
     assert document.dxfversion == 'AC1009'
     assert not document.audit().errors
     declared = {layer.dxf.name for layer in document.layers}
-    pieces = {}
     inserted = [insert.dxf.name for insert in document.modelspace().query('INSERT')]
     for block in document.blocks:
         if not block.name.startswith('PIECE_'):
             continue
         assert inserted.count(block.name) == 1
-        layers = pieces.setdefault(int(block.name.removeprefix('PIECE_')), {})
         for entity in block:
             assert entity.dxf.layer in declared
             if entity.dxftype() == 'POLYLINE':
-                points = np.array([v.dxf.location for v in entity.vertices])[:, :2]
-                layers.setdefault(entity.dxf.layer, []).append((points, entity.is_closed))
+                yield int(block.name.removeprefix('PIECE_')), entity
+
+
+def dxf_pieces(path):
+    """{piece number: {layer: [(points, closed)]}} of a DXF."""
+    pieces = {}
+    for piece, line in dxf_lines(path):
+        pieces.setdefault(piece, {}).setdefault(line.dxf.layer, []).append((dxf_points(line), line.is_closed))
     return pieces
 
 

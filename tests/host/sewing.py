@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sews the pieces of a pattern together, from the written SVG alone.
+"""Sews the pieces of a pattern together, from the written SVG or DXF alone.
 
 A seam is found as a person finds it: the stretch of a piece's stitch line (of its net, for paper) that has the
 seam's number, and the match points on it, which say which end goes to which."""
@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from pattern_files import SVG
+from pattern_files import SVG, dxf_lines, dxf_points
 
 ROUNDING = 2e-4  # mm: numbers in the file have four decimals
 
@@ -52,21 +52,36 @@ def _points(path):
     return np.array(re.findall(r'-?[\d.]+', path.get('d')), float).reshape(-1, 2)
 
 
-def read_sides(path):
-    """{seam number: [Side]} of an SVG, each side with its match points."""
+def _svg_lines(path):
+    """(piece, points, {name: number}) of each line of a seam."""
     root = ElementTree.parse(path).getroot()
-    sides, notches = {}, {}
     for group in root.findall(f"{SVG}g[@class='piece']"):
-        piece = int(group.get('id').removeprefix('piece-'))
         for line in group.iter(f'{SVG}path'):
-            if not line.get('data-seam'):
-                continue
-            key = int(line.get('data-seam')), int(line.get('data-side'))
-            if line.get('data-match'):
-                notches.setdefault((key, int(line.get('data-match'))), []).append(_points(line))
-            else:
-                assert key not in sides, f'side {key} is there twice'
-                sides[key] = Side(piece, _points(line))
+            data = {name: int(line.get(f'data-{name}')) for name in ('seam', 'side', 'match') if line.get(f'data-{name}')}
+            if data:
+                yield int(group.get('id').removeprefix('piece-')), _points(line), data
+
+
+def _dxf_lines(path):
+    """The same of a DXF."""
+    for piece, line in dxf_lines(path):
+        if line.has_xdata('DCHARTS'):
+            values = [value for code, value in line.get_xdata('DCHARTS') if code != 1001]
+            data = {name: number for name, number in zip(values[::2], values[1::2]) if name != 'angle'}
+            if data:
+                yield piece, dxf_points(line), data
+
+
+def read_sides(path):
+    """{seam number: [Side]} of an SVG or a DXF, each side with its match points."""
+    sides, notches = {}, {}
+    for piece, points, data in (_dxf_lines if path.suffix == '.dxf' else _svg_lines)(path):
+        key = data['seam'], data['side']
+        if 'match' in data:
+            notches.setdefault((key, data['match']), []).append(points)
+        else:
+            assert key not in sides, f'side {key} is there twice'
+            sides[key] = Side(piece, points)
     for (key, number), lines in notches.items():
         sides[key].matches[number] = _arc_of_notch(sides[key], lines)
     seams = {}
@@ -89,17 +104,32 @@ def _arc_of_notch(side, lines):
     return float(np.mean(arcs))
 
 
-def read_seam_table(path):
-    """{seam number: SeamRow} of the assembly pages in an SVG."""
+def _svg_table_texts(path):
+    """(x where it begins, height, text, page) of the texts on the assembly pages."""
     root = ElementTree.parse(path).getroot()
-    rows, cells = {}, {}
     for group in root.findall(f'{SVG}g'):
         if not group.get('id').startswith('assembly'):
             continue
         for text in group.iter(f'{SVG}text'):
             x, y = map(float, re.match(r'translate\(([-\d.]+),([-\d.]+)\)', text.get('transform')).groups())
-            half = float(text.get('textLength')) / 2
-            cells.setdefault((group.get('id'), round(y, 1)), []).append((x - half, text.text))
+            yield x - float(text.get('textLength')) / 2, y, text.text, group.get('id')
+
+
+def _dxf_table_texts(path):
+    """The same of what is not in pieces, from the first table's head to the right."""
+    import ezdxf
+    texts = ezdxf.readfile(path).modelspace().query('TEXT')
+    left = min(text.dxf.insert.x for text in texts if text.dxf.text == 'order')
+    for text in texts:
+        if text.dxf.insert.x >= left:
+            yield text.dxf.insert.x, text.dxf.insert.y, text.dxf.text.replace('%%%', '%'), ''
+
+
+def read_seam_table(path):
+    """{seam number: SeamRow} of the seam table in an SVG or a DXF."""
+    rows, cells = {}, {}
+    for x, y, text, page in (_dxf_table_texts if path.suffix == '.dxf' else _svg_table_texts)(path):
+        cells.setdefault((page, round(y, 1)), []).append((x, text))
     for row in cells.values():
         row = [text for _, text in sorted(row)]
         # Two columns of the table may stand beside each other.

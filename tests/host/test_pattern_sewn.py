@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pieces sewn back to the model they are of, by the written SVG alone."""
+"""Pieces sewn back to the model they are of, by the written SVG or the written DXF alone."""
 import numpy as np
 import pytest
 
@@ -33,15 +33,20 @@ def euler_and_border(mesh):
     return len(np.unique(faces)) - len(edges) + len(faces), np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum()
 
 
-@pytest.fixture(scope='module', params=MODELS)
+@pytest.fixture(scope='module', params=[(name, ending) for name in MODELS for ending in ('svg', 'dxf')],
+                ids=lambda of: '-'.join(of))
 def sewn(request, model_file, tmp_path_factory):
-    """(name, material, MeshSet, Sewn, seam table)."""
-    name, material = request.param, MODELS[request.param]
+    """(name, material, MeshSet, Sewn, seam table). A DXF has been read and written by another program."""
+    name, ending = request.param
     ms = pymeshlab.MeshSet()
     ms.load_new_mesh(str(model_file(name)))
-    svg = tmp_path_factory.mktemp(name) / 'pattern.svg'
-    ms.dcharts_pattern(material=material, size=SIZE, output_file=str(svg))
-    return name, material, ms, Sewn(read_sides(svg)), read_seam_table(svg)
+    file = tmp_path_factory.mktemp(name) / f'pattern.{ending}'
+    ms.dcharts_pattern(material=MODELS[name], size=SIZE, output_file=str(file))
+    if ending == 'dxf':
+        ezdxf = pytest.importorskip('ezdxf')
+        original, file = file, file.with_name('saved.dxf')
+        ezdxf.readfile(original).saveas(file)
+    return name, MODELS[name], ms, Sewn(read_sides(file)), read_seam_table(file)
 
 
 def test_every_seam_closes(sewn):

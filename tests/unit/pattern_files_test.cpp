@@ -195,6 +195,20 @@ TEST(PatternFiles, DxfHasABlockForEachPieceAndDeclaresItsLayers) {
     EXPECT_NE(dxf.find(part), std::string::npos) << part;
 }
 
+TEST(PatternFiles, DxfSaysOfALineWhatItBelongsTo) {
+  const std::string dxf = DxfFile(DrawingOf(Cushions({40}, 7)));
+  EXPECT_NE(dxf.find("2\nAPPID\n70\n1\n0\nAPPID\n2\nDCHARTS\n70\n0\n"), std::string::npos);
+  for (const char* side : {"1", "2"}) {
+    const std::string data =
+        std::string("1001\nDCHARTS\n1000\nseam\n1071\n3\n1000\nside\n1071\n") + side + "\n";
+    EXPECT_NE(dxf.find(data + "0\nVERTEX\n8\n14\n"), std::string::npos) << "stitch line";
+    EXPECT_NE(dxf.find(data + "1000\nmatch\n1071\n3\n0\nVERTEX\n8\n4\n"), std::string::npos) << "notch";
+  }
+  Drawing fold{"fold", {100, 100}, {{"g", "g"}}};
+  fold.groups[0].lines.push_back({Mark::kValley, {{0, 0}, {10, 0}}, false, -1, -1, 0, -90});
+  EXPECT_NE(DxfFile(fold).find("1001\nDCHARTS\n1000\nangle\n1040\n-90\n"), std::string::npos);
+}
+
 TEST(PatternFiles, PdfIsTheSameEveryTime) {
   const auto drawing = std::make_shared<const Drawing>(DrawingOf(Cushions({40}, 7)));
   const std::vector<Page> pages = {{drawing->size, {{drawing, {0, 0}, {0, 0}, {0, 0}}}}};

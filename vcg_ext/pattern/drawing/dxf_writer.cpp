@@ -15,6 +15,7 @@ namespace dcharts {
 namespace {
 
 constexpr double kTurnDegrees = 20;  // a corner that turns by more is a turn point, else a curve point
+constexpr const char* kApplication = "DCHARTS";  // whose extended data a line has
 
 // %% codes are DXF's way to write what is not ASCII.
 std::string DxfText(const std::string& text) {
@@ -117,9 +118,10 @@ class DxfBuilder {
     const std::string style = Code(0, "STYLE") + Code(2, "STANDARD") + Code(70, 0) + Code(40, 0.0) +
                               Code(41, 1.0) + Code(50, 0.0) + Code(71, 0) + Code(42, 2.5) + Code(3, "txt") +
                               Code(4, "");
+    const std::string application = Code(0, "APPID") + Code(2, kApplication) + Code(70, 0);
     return Section("TABLES", Table("LTYPE", 4, types) +
                                  Table("LAYER", static_cast<int>(layers_.size()) + 1, layers) +
-                                 Table("STYLE", 1, style));
+                                 Table("STYLE", 1, style) + Table("APPID", 1, application));
   }
 
   std::string Entities(const Group& group) {
@@ -131,11 +133,23 @@ class DxfBuilder {
     return entities;
   }
 
+  // What a line belongs to, as extended data: names, each followed by a number.
+  static std::string ExtendedData(const Line& line) {
+    constexpr int kName = 1000, kReal = 1040, kLong = 1071;
+    std::string data;
+    if (line.seam >= 0)
+      data +=
+          Code(kName, "seam") + Code(kLong, line.seam + 1) + Code(kName, "side") + Code(kLong, line.side + 1);
+    if (line.match > 0) data += Code(kName, "match") + Code(kLong, line.match);
+    if (line.angle != 0) data += Code(kName, "angle") + Code(kReal, line.angle);
+    return data.empty() ? data : Code(1001, kApplication) + data;
+  }
+
   std::string Entity(const Line& line) {
     const LineStyle& style = StyleOf(line.mark);
     const std::string layer = Layer(style.astm_layer);
     std::string entity = Code(0, "POLYLINE") + Code(8, layer) + Code(6, style.line_type) + Code(66, 1) +
-                         At(10, {0, 0}) + Code(70, line.closed ? 1 : 0);
+                         At(10, {0, 0}) + Code(70, line.closed ? 1 : 0) + ExtendedData(line);
     for (const Point2& p : line.points) entity += Code(0, "VERTEX") + Code(8, layer) + At(10, p);
     entity += Code(0, "SEQEND") + Code(8, layer);
     if (line.mark == Mark::kCut && line.closed) {

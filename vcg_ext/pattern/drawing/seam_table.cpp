@@ -100,4 +100,6 @@ void AddSeamTable(const Pattern& pattern, double margin, double top, std::vector
   }
 }
 
+double SeamTableWidth() { return kTableWidth; }
+
 }  // namespace dcharts

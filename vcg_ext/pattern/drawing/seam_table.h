@@ -12,4 +12,7 @@ namespace dcharts {
 /// what it is.
 void AddSeamTable(const Pattern& pattern, double margin, double top, std::vector<Drawing>& pages);
 
+/// Of one column, mm.
+double SeamTableWidth();
+
 }  // namespace dcharts

@@ -10,6 +10,7 @@
 #include "pattern/drawing/dxf_writer.h"
 #include "pattern/drawing/pdf_pages.h"
 #include "pattern/drawing/save_file.h"
+#include "pattern/drawing/seam_table.h"
 #include "pattern/drawing/sheet.h"
 #include "pattern/drawing/sheet_marks.h"
 #include "pattern/drawing/svg_writer.h"
@@ -37,6 +38,22 @@ Drawing WholeSheet(Draft& draft) {
   return sheet;
 }
 
+// Pieces, and to the right of them the table of seams: a DXF has no pictures.
+Drawing SheetWithTable(Draft& draft) {
+  constexpr double kMargin = 10;
+  Drawing sheet = SheetOf(draft);
+  Drawing page;
+  page.size = Point2(SeamTableWidth() + 2 * kMargin, std::max(sheet.size.y(), 297.0));
+  page.groups.push_back({"seams", "Seams"});
+  std::vector<Drawing> pages = {std::move(page)};
+  AddSeamTable(draft.pattern, kMargin, pages[0].size.y() - kMargin, pages);
+  for (const Drawing& drawing : pages) {
+    for (const Group& group : drawing.groups) sheet.groups.push_back(Moved(group, {sheet.size.x(), 0}));
+    sheet.size = {sheet.size.x() + drawing.size.x(), std::max(sheet.size.y(), drawing.size.y())};
+  }
+  return sheet;
+}
+
 }  // namespace
 
 void CheckOutputFile(const std::string& path) {
@@ -60,7 +77,7 @@ std::vector<std::string> WritePattern(const Pattern& pattern, const SurfaceData&
   else if (ending == ".svg")
     SaveFile(path, SvgFile(WholeSheet(draft)));
   else
-    SaveFile(path, DxfFile(SheetOf(draft)));
+    SaveFile(path, DxfFile(SheetWithTable(draft)));
   std::vector<std::string> sentences = {"Wrote " + path + "."};
   if (!draft.unplaced.empty()) {
     std::string text = "These labels found no room: ";
