@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "atlas_checks.h"
-#include "pattern_fixture.h"
+#include "pattern_checks.h"
 #include "runner.h"
 
 namespace dcharts::fuzz {
@@ -52,52 +52,6 @@ std::string WrongInCut(const SurfaceData& mesh, const SurfaceChange& change) {
   for (const auto& uv : change.wedge_texcoords)
     for (float x : uv)
       if (!std::isfinite(x)) return wrong + "a texcoord is not finite\n";
-  return wrong;
-}
-
-bool Finite(const std::vector<Polyline>& lines) {
-  for (const Polyline& line : lines)
-    for (const Point2& p : line)
-      if (!p.allFinite()) return false;
-  return true;
-}
-
-std::string WrongInPiece(const Piece& piece, const SurfaceData& mesh) {
-  std::string wrong;
-  if (piece.loops.empty() || !Finite(OutlineOf(piece))) return "an outline is not there or not finite\n";
-  if (!(piece.area > 0) || !std::isfinite(piece.area)) wrong += "area\n";
-  if (!(piece.model_area >= 0) || !std::isfinite(piece.model_area)) wrong += "model area\n";
-  if (test::OutlinesCross(piece)) wrong += "the outline crosses itself\n";
-  if (piece.cut.empty() || !Finite(piece.cut)) wrong += "no cut line, or not finite\n";
-  for (const Tab& tab : piece.tabs)
-    if (!Finite({tab.outline})) wrong += "a tab is not finite\n";
-  for (const Fold& fold : piece.folds)
-    if (!Finite({fold.line}) || !std::isfinite(fold.angle_degrees)) wrong += "a fold is not finite\n";
-  if (!Finite({piece.flat.vertices, piece.net.vertices})) wrong += "a flat mesh is not finite\n";
-  if (!Finite({{piece.grain, piece.label_at, piece.on_sheet.offset, piece.on_page.offset}}))
-    wrong += "grain, label or place is not finite\n";
-  for (int f : piece.flat.face)
-    if (f < 0 || f >= static_cast<int>(mesh.faces.size())) return wrong + "a flat triangle of no face\n";
-  return wrong;
-}
-
-std::string WrongInSeam(const Seam& seam, const Pattern& pattern) {
-  if (seam.sides.empty()) return "no side\n";
-  std::string wrong;
-  for (const SeamSide& side : seam.sides) {
-    if (side.piece < 0 || side.piece >= static_cast<int>(pattern.pieces.size()))
-      return "a side of no piece\n";
-    const auto& loops = pattern.pieces[static_cast<std::size_t>(side.piece)].loops;
-    if (side.loop < 0 || side.loop >= static_cast<int>(loops.size())) return "a side of no loop\n";
-    const int size = static_cast<int>(loops[static_cast<std::size_t>(side.loop)].size());
-    if (side.first < 0 || side.first >= size || side.edges < 1 || side.edges > size)
-      return "a side of no run\n";
-    if (side.edges != seam.sides.front().edges) wrong += "sides have other numbers of edges\n";
-    if (!std::isfinite(side.length)) wrong += "a side's length is not finite\n";
-  }
-  if (!std::isfinite(seam.length) || !std::isfinite(seam.ease)) wrong += "length or ease is not finite\n";
-  for (const MatchPoint& match : seam.match_points)
-    if (match.at.size() != seam.sides.size() || !Finite({match.at, match.outward})) wrong += "match points\n";
   return wrong;
 }
 
@@ -148,19 +102,7 @@ std::string WrongInChange(const FilterSpec& filter, const SurfaceData& mesh, con
 }
 
 std::string WrongInPattern(const SurfaceData& mesh, const PatternResult& result) {
-  const Pattern& pattern = result.pattern;
-  std::string wrong = WrongInFigures(result.report);
-  if (pattern.pieces.empty()) return wrong + "no pieces\n";
-  if (pattern.piece_of_face.size() != mesh.faces.size()) wrong += "piece_of_face has another size\n";
-  for (const Piece& piece : pattern.pieces) {
-    const std::string of_piece = WrongInPiece(piece, mesh);
-    if (!of_piece.empty()) wrong += piece.name + ": " + of_piece;
-  }
-  for (const Seam& seam : pattern.seams) {
-    const std::string of_seam = WrongInSeam(seam, pattern);
-    if (!of_seam.empty()) wrong += "seam " + std::to_string(seam.id + 1) + ": " + of_seam;
-  }
-  return wrong;
+  return WrongInFigures(result.report) + test::WrongInPattern(mesh, result.pattern);
 }
 
 std::string WrongInSentence(const std::string& sentence) {
