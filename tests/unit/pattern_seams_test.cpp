@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <set>
+#include <vector>
 
 #include "pattern/equal_outlines.h"
 #include "pattern/equal_seams.h"
@@ -228,6 +230,28 @@ TEST(PatternEqualOutlines, MakesUnequalSidesEqual) {
   EXPECT_GT(pattern.largest_ease, 0.009);
   EqualizeOutlines(2, pattern);
   EXPECT_LT(pattern.largest_ease, 1e-6);
+}
+
+TEST(PatternEqualOutlines, ANeedleIsNotTurnedOver) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> anywhere(0, 1);
+  for (int trial = 0; trial < 50; ++trial) {
+    SurfaceData mesh;
+    const double height = std::pow(10, -6 + 5 * anywhere(random));
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {anywhere(random), height, 0}, {anywhere(random), 1, 0}};
+    mesh.faces = {{0, 1, 2}, {0, 2, 3}, {2, 1, 3}};
+    FlatCharts charts = test::ChartsOf(
+        mesh, [](const Point3& p) { return p.y() < 0.1 ? 0 : 1; }, test::FromAbove);
+    for (FlatChart& chart : charts.charts)
+      for (Eigen::Index v = 0; v < chart.uv.rows(); ++v) chart.uv(v, 0) *= 1 + anywhere(random);
+    const SeamGraph graph = SeamsOf(charts);
+    Pattern pattern = BuildPieces(charts, graph, test::AllVertices(graph));
+    std::vector<bool> was_sound;
+    for (const Piece& piece : pattern.pieces) was_sound.push_back(piece.area > 0);
+    EqualizeOutlines(1, pattern);
+    for (const Piece& piece : pattern.pieces)
+      EXPECT_TRUE(piece.area > 0 || !was_sound[piece.id]) << trial << " " << piece.name << " " << piece.area;
+  }
 }
 
 TEST(PatternMatchPoints, AreAtEqualArcLengthOnBothSides) {

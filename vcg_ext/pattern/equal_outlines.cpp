@@ -40,7 +40,7 @@ class OutlineFit {
     std::vector<Point2> moved = start_;
     for (int attempt = 0; attempt < 4; ++attempt, share /= 2) {
       for (size_t v = 0; v < at.size(); ++v) moved[v] = start_[v] + share * (at[v] - start_[v]);
-      if (crossed_before || !Crosses(moved)) break;
+      if (Area(moved) > 0 && (crossed_before || !Crosses(moved))) break;
       moved = start_;
     }
     size_t v = 0;
@@ -53,6 +53,12 @@ class OutlineFit {
     int a, b;
     double length;
   };
+
+  double Area(const std::vector<Point2>& at) const {
+    double twice = 0;
+    for (const Edge& e : edges_) twice += at[e.a].x() * at[e.b].y() - at[e.a].y() * at[e.b].x();
+    return twice / 2;
+  }
 
   bool Crosses(const std::vector<Point2>& at) const {
     std::vector<LineSegment> segments;
