@@ -22,7 +22,8 @@ RandomCase MakeRandomCase(std::uint64_t seed, std::uint64_t number) {
                                    FilterId::kTextureAtlas, FilterId::kTextureAtlas, FilterId::kTextureAtlas,
                                    FilterId::kPattern,      FilterId::kPattern,      FilterId::kMeasure};
   made.filter = &GetFilter(random.Of(kFilters));
-  made.mesh = RandomShape(random, static_cast<int>(random.Log(1, 400)), made.shape);
+  // Small ones find most and are quick.
+  made.mesh = RandomShape(random, static_cast<int>(random.Log(1, random.Chance(0.8) ? 40 : 400)), made.shape);
   for (int mutations = random.Int(0, 4); mutations > 0; --mutations) Mutate(random, made.mesh, made.shape);
   AddAttributes(random, made.mesh);
   made.params = RandomParams(random, *made.filter, made.changed_params);
