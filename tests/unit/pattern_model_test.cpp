@@ -223,6 +223,43 @@ TEST(PatternModel, APieceLargerThanThePageIsSplitOnRequest) {
   for (const Piece& piece : split.pieces) EXPECT_GE(piece.on_page.page, 0);
 }
 
+TEST(PatternModel, ABoxOfLargeTrianglesIsSplitToo) {
+  Params params = Paper();
+  params.page = PageFormat::kA4;
+  params.size = 400;
+  params.oversize = Oversize::kSplitPiece;
+  const Pattern pattern = PatternOf(shapes::Cube(1), params);
+  EXPECT_LE(pattern.pieces.size(), 6u * 8);  // a face alone takes two by three pages
+  for (const Piece& piece : pattern.pieces) EXPECT_GE(piece.on_page.page, 0);
+  EXPECT_EQ(EulerOf(pattern), 2);
+}
+
+TEST(PatternModel, PiecesTooSmallToSewAreNamed) {
+  const auto warned = [](double size) {
+    Params params;
+    params.size = size;
+    const Pattern pattern = PatternOf(shapes::Bishop(), params);
+    int small = 0;
+    for (const Piece& piece : pattern.pieces) small += piece.area < 21 * 21;  // three allowances of 7 mm
+    int named = 0;
+    for (const std::string& warning : pattern.warnings)
+      if (warning.rfind("Too small to sew", 0) == 0) {
+        for (const Piece& piece : pattern.pieces) {
+          const std::string number = std::to_string(piece.id + 1);
+          bool is_named = false;
+          for (const char* end : {" ", ",", "."})
+            is_named |= warning.find(" " + number + end) != std::string::npos;
+          EXPECT_EQ(is_named, piece.area < 21 * 21) << warning << " piece " << number;
+          named += is_named;
+        }
+      }
+    EXPECT_EQ(named, small);
+    return named;
+  };
+  EXPECT_GT(warned(60), 0);
+  EXPECT_EQ(warned(500), 0);
+}
+
 TEST(PatternModel, IsTheSameEveryTime) {
   const Pattern a = PatternOf(shapes::Torus(18), Params()), b = PatternOf(shapes::Torus(18), Params());
   ASSERT_EQ(a.pieces.size(), b.pieces.size());

@@ -383,10 +383,5 @@ TEST(PatternPlaces, PiecesKeepTheirDirectionWhenTheyMayNotBeTurned) {
   ExpectApart(pattern, true);
 }
 
-TEST(PatternPlaces, FitsIntoTurnsPieces) {
-  EXPECT_TRUE(FitsInto(Rectangle(280, 30), {200, 290}));
-  EXPECT_FALSE(FitsInto(Rectangle(400, 30), {200, 290}));
-}
-
 }  // namespace
 }  // namespace dcharts

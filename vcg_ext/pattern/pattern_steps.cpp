@@ -15,9 +15,11 @@
 #include "pattern/folds.h"
 #include "pattern/grain.h"
 #include "pattern/label_place.h"
+#include "pattern/least_piece.h"
 #include "pattern/match_points.h"
 #include "pattern/net_triangles.h"
 #include "pattern/outline.h"
+#include "pattern/page_cuts.h"
 #include "pattern/place_pieces.h"
 #include "pattern/seam_graph.h"
 #include "pattern/simplify_seams.h"
@@ -42,6 +44,20 @@ void GiveModelArea(FlatCharts& charts) {
   for (FlatChart& chart : charts.charts) chart.uv *= factor;
 }
 
+// Pieces that go onto a page whole, with their allowances or tabs.
+void PartLargePieces(const Params& params, Progress& progress, FlatCharts& charts) {
+  if (params.page == PageFormat::kSingleSheet || params.oversize != Oversize::kSplitPiece) return;
+  const bool is_fabric = params.material == PatternMaterial::kFabric;
+  // Packing turns pieces by steps, and corners of the allowance reach out: so a little less than the page.
+  constexpr double kSpare = 4, kLeast = 20;  // mm
+  const double around = kSpare + (is_fabric ? 2 * params.seam_allowance : params.tab_width);
+  const Point2 page = (PrintableSize(params.page) - Point2::Constant(2 * around)).cwiseMax(kLeast);
+  const int cuts = CutToPages(
+      page, [&] { progress.Poll(); }, charts);
+  if (cuts > 0)
+    progress.Log("Pieces larger than a page were parted by " + std::to_string(cuts) + " straight cuts.");
+}
+
 // How much the sides of a seam may differ in length, as a share of the 3D length: paper doesn't give.
 double MostEase(PatternMaterial material) { return material == PatternMaterial::kPaper ? 0.001 : 0.01; }
 
@@ -63,6 +79,17 @@ Pattern SimplifiedPieces(const FlatCharts& charts, const SeamGraph& graph, const
   return pattern;
 }
 
+void WarnOfSmallPieces(const Params& params, Pattern& pattern) {
+  std::vector<int> small;
+  for (const Piece& piece : pattern.pieces)
+    if (piece.area < LeastPieceArea(params)) small.push_back(piece.id);
+  if (small.empty()) return;
+  const bool is_fabric = params.material == PatternMaterial::kFabric;
+  pattern.warnings.push_back(std::string("Too small to ") + (is_fabric ? "sew" : "glue") +
+                             " with ease: " + PieceList(small) + ". Make the object larger or " +
+                             (is_fabric ? "seam_allowance" : "tab_width") + " smaller.");
+}
+
 std::string PointsOfOutlines(const Pattern& pattern) {
   std::string line = "Points of the outlines:";
   for (const Piece& piece : pattern.pieces) {
@@ -78,6 +105,7 @@ std::string PointsOfOutlines(const Pattern& pattern) {
 Pattern PatternOfCharts(FlatCharts charts, const Params& params, Progress& progress, double from, double to) {
   const auto poll = [&] { progress.Poll(); };
   if (params.material == PatternMaterial::kFabric) GiveModelArea(charts);
+  PartLargePieces(params, progress, charts);
   progress.BeginStage("Simplifying outlines...", from, from + 0.2 * (to - from));
   const SeamGraph graph = SeamsOf(charts);
   Pattern pattern = SimplifiedPieces(charts, graph, params, poll);
@@ -110,6 +138,7 @@ Pattern PatternOfCharts(FlatCharts charts, const Params& params, Progress& progr
     AddTabs(params.tab_width, poll, pattern);
   }
 
+  WarnOfSmallPieces(params, pattern);
   std::vector<int> uneven;
   for (const Seam& seam : pattern.seams)
     if (seam.ease > MostEase(params.material))

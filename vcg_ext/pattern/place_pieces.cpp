@@ -173,21 +173,6 @@ Point2 PrintableSize(PageFormat page) {
   return PageSize(page) - Point2::Constant(2 * kPageMargin);
 }
 
-bool FitsInto(const Polyline& points, const Point2& size) {
-  constexpr int kTurns = 36;
-  for (int t = 0; t < kTurns; ++t) {
-    const double angle = kPi * t / kTurns, c = std::cos(angle), s = std::sin(angle);
-    Point2 low = Point2::Constant(std::numeric_limits<double>::infinity()), high = -low;
-    for (const Point2& p : points) {
-      const Point2 q(c * p.x() - s * p.y(), s * p.x() + c * p.y());
-      low = low.cwiseMin(q);
-      high = high.cwiseMax(q);
-    }
-    if (((high - low).array() <= size.array()).all()) return true;
-  }
-  return false;
-}
-
 void PlacePieces(PageFormat page, bool rotate, double gap, const std::function<void()>& poll,
                  Pattern& pattern) {
   std::vector<Piece*> pieces;

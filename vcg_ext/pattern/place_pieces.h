@@ -15,9 +15,6 @@ Point2 PageSize(PageFormat page);
 Point2 PrintableSize(PageFormat page);
 constexpr double kPageMargin = 10;  ///< mm
 
-/// Whether points fit into a rectangle, turned as it suits.
-bool FitsInto(const Polyline& points, const Point2& size);
-
 /// Places the drawn pieces, as they are cut, on one sheet as small as can be, nearly square (Section 4:
 /// "packs the charts into a square domain"), and, unless there is only a single sheet, on pages. They stay
 /// apart by `gap` mm. `poll` may throw.

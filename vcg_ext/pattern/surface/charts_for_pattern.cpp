@@ -9,8 +9,8 @@
 
 #include "common/parallel.h"
 #include "pattern/equal_seams.h"
+#include "pattern/least_piece.h"
 #include "pattern/near_itself.h"
-#include "pattern/place_pieces.h"
 #include "pattern/surface/patch_darts.h"
 #include "planar/distortion.h"
 #include "planar/flatten.h"
@@ -206,7 +206,7 @@ int ChartsForPattern::EqualizeAllSeams(ChartIds& ids, SeamMask& seams) {
         continue;
       }
       const bool may_part = chart.patch.faces.size() > 1;
-      if (may_part && (IsTooLarge(chart) || (IsOffInArea(chart) && round < kRounds))) {
+      if (may_part && IsOffInArea(chart) && round < kRounds) {
         Store(chart.patch, chart.chart.uv / to_mm_);
         PartChart(chart.patch, Bisect(chart.patch), next_id++, ids, seams);
         continue;
@@ -242,22 +242,7 @@ bool ChartsForPattern::IsOffInArea(const Finished& chart) const {
   return std::abs(figures.UvArea() - figures.SurfaceArea()) > kMost * figures.SurfaceArea();
 }
 
-bool ChartsForPattern::IsTooLarge(const Finished& chart) const {
-  if (params_.page == PageFormat::kSingleSheet || params_.oversize != Oversize::kSplitPiece) return false;
-  const bool is_fabric = params_.material == PatternMaterial::kFabric;
-  // Packing turns pieces by steps, and corners of the allowance reach out: so a little less than the page.
-  constexpr double kSpare = 4;  // mm
-  const double around = kSpare + (is_fabric ? 2 * params_.seam_allowance : params_.tab_width);
-  Polyline points;
-  for (int h : chart.boundary) points.push_back(chart.chart.uv.row(StartOf(chart.chart, h)).transpose());
-  return !FitsInto(points, PrintableSize(params_.page) - Point2::Constant(2 * around));
-}
-
-double ChartsForPattern::UselessArea() const {
-  const bool is_fabric = params_.material == PatternMaterial::kFabric;
-  const double width = (is_fabric ? 3 * params_.seam_allowance : 2 * params_.tab_width) / to_mm_;
-  return width * width;
-}
+double ChartsForPattern::UselessArea() const { return LeastPieceArea(params_) / (to_mm_ * to_mm_); }
 
 int ChartsForPattern::JoinSmallCharts(ChartIds& ids, SeamMask& seams) {
   constexpr double kSmallShare = 0.005;  // of the model's area

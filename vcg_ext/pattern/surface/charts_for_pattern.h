@@ -42,9 +42,8 @@ class ChartsForPattern {
   int JoinSmallCharts(ChartIds& ids, SeamMask& seams);
 
   /// Gives both sides of every seam the same length. A chart whose outline would cross itself then has its
-  /// darts sewn up that cross, or is parted; so is one that
-  /// leaves no room for its allowance, loses or gains area though it is of paper, or has to fit onto a page
-  /// and doesn't. Returns how many charts were left with seams of unequal length.
+  /// darts sewn up that cross, or is parted; so is one that leaves no room for its allowance, or loses or
+  /// gains area though it is of paper. Returns how many charts were left with seams of unequal length.
   int EqualizeAllSeams(ChartIds& ids, SeamMask& seams);
 
   /// The flat charts in mm, at their places on the finished object. `data`, `source_face`: the mesh that the
@@ -58,7 +57,6 @@ class ChartsForPattern {
   void Finish(Finished& chart, const std::function<void()>& poll) const;
   std::optional<std::pair<int, int>> MeetsItself(const Finished& chart) const;
   bool IsOffInArea(const Finished& chart) const;
-  bool IsTooLarge(const Finished& chart) const;
   double UselessArea() const;  // a smaller piece can't be sewn or folded
   bool TryJoin(int small, int other, ChartIds& ids, SeamMask& seams);
   int JoinWithImages(int small, int other, ChartIds& ids, SeamMask& seams);
