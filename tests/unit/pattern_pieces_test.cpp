@@ -219,13 +219,13 @@ TEST(PatternFolds, BendsBelowTheAngleAreNone) {
   EXPECT_TRUE(pattern.pieces[0].folds.empty());
 }
 
-TEST(PatternRulings, ACylindersRunAlongItsAxis) {
-  // A third of a tube of 60 mm radius, 100 mm long, its axis at 30 degrees in the flat piece.
+// A part of a tube, its axis at 30 degrees in the flat piece.
+FlatCharts Tube(double radius, double angle_around, double length) {
   SurfaceData mesh = shapes::Grid(40, 20);
-  const double radius = 60, c = std::cos(kPi / 6), s = std::sin(kPi / 6);
+  const double c = std::cos(kPi / 6), s = std::sin(kPi / 6);
   std::vector<Point2> flat;
   for (auto& v : mesh.vertices) {
-    const double angle = 2 * v[0], along = 100 * v[1], arc = radius * angle;
+    const double angle = angle_around * v[0], along = length * v[1], arc = radius * angle;
     flat.push_back({c * arc - s * along, s * arc + c * along});
     v = {radius * std::sin(angle), along, radius * std::cos(angle)};
   }
@@ -234,17 +234,30 @@ TEST(PatternRulings, ACylindersRunAlongItsAxis) {
   FlatChart& chart = charts.charts[0];
   for (size_t v = 0; v < chart.model_vertex.size(); ++v)
     chart.uv.row(static_cast<Eigen::Index>(v)) = flat[chart.model_vertex[v]].transpose();
+  return charts;
+}
+
+TEST(PatternRulings, ACylindersRunAlongItsAxis) {
+  const FlatCharts charts = Tube(60, 2, 100);
   Pattern pattern = FinePattern(charts);
-  AddRulings(chart, 15, 10, pattern.pieces[0]);
+  AddRulings(charts.charts[0], 15, 10, pattern.pieces[0]);
   const auto& rulings = pattern.pieces[0].rulings;
   ASSERT_GE(rulings.size(), 6u);
   for (const Ruling& ruling : rulings) {
     const Point2 d = (ruling.to - ruling.from).normalized();
-    EXPECT_NEAR(std::abs(d.dot(Point2(-s, c))), 1, 0.01);
+    EXPECT_NEAR(std::abs(d.dot(Point2(-std::sin(kPi / 6), std::cos(kPi / 6)))), 1, 0.01);
   }
   Pattern none = FinePattern(Roof(0));
   AddRulings(Roof(0).charts[0], 15, 10, none.pieces[0]);
   EXPECT_TRUE(none.pieces[0].rulings.empty());
+}
+
+TEST(PatternRulings, AreFartherApartOnALargePiece) {
+  const FlatCharts charts = Tube(900, 2, 20000);
+  Pattern pattern = FinePattern(charts);
+  AddRulings(charts.charts[0], 15, 10, pattern.pieces[0]);
+  EXPECT_GE(pattern.pieces[0].rulings.size(), 2u);
+  EXPECT_LE(pattern.pieces[0].rulings.size(), 40u);
 }
 
 TEST(PatternGrain, RunsAlongTheModelsLongestAxis) {

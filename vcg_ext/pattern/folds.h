@@ -14,8 +14,8 @@ namespace dcharts {
 void AddFolds(const FlatChart& chart, double least_degrees, Piece& piece);
 
 /// Gives it rulings where it bends less sharply: straight lines along which it doesn't bend, at least
-/// `spacing` mm apart.
-void AddRulings(const FlatChart& chart, double least_degrees, double spacing, Piece& piece);
+/// `least_spacing` mm apart, and a 200th of a large piece's size.
+void AddRulings(const FlatChart& chart, double least_degrees, double least_spacing, Piece& piece);
 
 /// The parts of the straight line from a to b that lie in the region.
 std::vector<std::pair<Point2, Point2>> ClipToRegion(const Point2& a, const Point2& b,

@@ -120,7 +120,7 @@ double ReachAlong(const NormalField& field, const Point2& p, const Point2& d, do
 
 }  // namespace
 
-void AddRulings(const FlatChart& chart, double least_degrees, double spacing, Piece& piece) {
+void AddRulings(const FlatChart& chart, double least_degrees, double least_spacing, Piece& piece) {
   const std::vector<Polyline> outline = OutlineOf(piece);
   if (outline.empty()) return;
   const NormalField field(chart, least_degrees);
@@ -129,6 +129,8 @@ void AddRulings(const FlatChart& chart, double least_degrees, double spacing, Pi
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
+  constexpr double kMostAcross = 200;  // a tent has no more lines than a toy
+  const double spacing = std::max(least_spacing, (high - low).maxCoeff() / kMostAcross);
   constexpr double kLeastBend = 1.0 / 1000;  // 1 / mm: flatter than a circle of a metre's radius is flat
   constexpr double kOneWay = 0.3;            // the bend along a ruling over the one across it
   const double most = std::cos(4 * kPi / 180), step = spacing / 10;
