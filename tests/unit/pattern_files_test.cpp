@@ -17,6 +17,7 @@
 #include "pattern/drawing/sheet.h"
 #include "pattern/drawing/svg_writer.h"
 #include "pattern/drawing/text_box.h"
+#include "pattern/drawing/tiles.h"
 #include "pattern_by_hand.h"
 
 namespace dcharts {
@@ -220,6 +221,21 @@ TEST(PatternFiles, PdfIsTheSameEveryTime) {
 TEST(PatternFiles, APageMayNotBeLargerThanPdfAllows) {
   const auto drawing = std::make_shared<const Drawing>();
   EXPECT_THROW(PdfFile("x", {{{kLargestPage + 1, 100}, {{drawing, {0, 0}, {0, 0}, {0, 0}}}}}), Error);
+}
+
+TEST(PatternFiles, APieceOverThousandsOfPagesIsRefused) {
+  for (const double radius : {1000.0, 50000.0}) {
+    Pattern pattern = Cushions({radius}, 7);
+    pattern.page_size = {210, 297};
+    pattern.page_margin = 10;
+    for (Piece& piece : pattern.pieces) piece.on_page.page = -1;
+    const SurfaceData mesh;
+    Draft draft{pattern, mesh, "cushions", false};
+    if (radius < 2000)
+      EXPECT_EQ(TilingsOf(draft).size(), 2u);
+    else
+      EXPECT_THROW(TilingsOf(draft), Error);
+  }
 }
 
 TEST(PatternFiles, AFileIsWrittenWholeOrNotAtAll) {

@@ -91,6 +91,8 @@ class Pager {
         Points2 turned = Turned(edges, angle);
         const Eigen::RowVector2d corner = turned.colwise().minCoeff();
         turned.rowwise() -= corner;
+        const Eigen::RowVector2d size = turned.colwise().maxCoeff();
+        if (size.x() > columns_ * cell_ || size.y() > rows_ * cell_) continue;  // no need for its cells
         const RowRuns cells = CoveredCells(turned / cell_, gap_ / 2 / cell_);
         if (cells.width > columns_ || cells.Height() > rows_) continue;
         fits = true;

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/errors.h"
 #include "pattern/drawing/label_space.h"
+#include "pattern/drawing/number_text.h"
 #include "pattern/drawing/placed_piece.h"
 #include "pattern/drawing/sheet.h"
 #include "pattern/drawing/sheet_marks.h"
@@ -17,6 +19,9 @@ namespace {
 constexpr double kOverlap = 15;        // mm
 constexpr double kAround = 3;          // mm, least room around a piece
 constexpr double kRegistration = 3.5;  // mm, half the size of a mark
+
+// Nobody glues more pages together, and a larger PDF would take long to make.
+constexpr double kMostTiles = 5000;
 
 int TilesAlong(double length, double tile) {
   return std::max(1, static_cast<int>(std::ceil((length - kOverlap) / (tile - kOverlap) - 1e-9)));
@@ -71,6 +76,7 @@ std::string Tiling::NameOf(int index) const {
 std::vector<Tiling> TilingsOf(Draft& draft) {
   const Pattern& pattern = draft.pattern;
   std::vector<Tiling> tilings;
+  double tiles = 0;
   for (const Piece& piece : pattern.pieces) {
     if (!piece.drawn || piece.on_page.page >= 0) continue;
     PiecePlacement placement{0, piece.on_page.angle, {0, 0}};
@@ -83,6 +89,10 @@ std::vector<Tiling> TilingsOf(Draft& draft) {
     const Point2 least = turned.high - turned.low + Point2(2, 2) * kAround;
     tiling.columns = TilesAlong(least.x(), tiling.tile.x());
     tiling.rows = TilesAlong(least.y(), tiling.tile.y());
+    tiles += static_cast<double>(tiling.columns) * tiling.rows;
+    if (tiles > kMostTiles)
+      throw Error("The large pieces would go over more than " + NumberText(kMostTiles, 0) +
+                  " pages. Choose a larger page or 'Single sheet', or a smaller size.");
     drawing->size =
         tiling.tile + Point2((tiling.columns - 1) * tiling.step.x(), (tiling.rows - 1) * tiling.step.y());
     placement.offset = (drawing->size - turned.low - turned.high) / 2;

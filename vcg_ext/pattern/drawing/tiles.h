@@ -28,7 +28,7 @@ struct Tiling {
 };
 
 /// Tilings of the drawn pieces whose placement is on no page. Appends labels that found no room to
-/// `unplaced`.
+/// `unplaced`. Throws Error when they would take thousands of pages.
 std::vector<Tiling> TilingsOf(Draft& draft);
 
 /// The tile on a page of its own, without the page's marks.
