@@ -36,19 +36,19 @@ sanitized_unit_tests() {
   local build=$repo/build-sanitized
   ensure_build -DDCHARTS_BUILD_TESTS=ON -DCMAKE_BUILD_TYPE=RelWithDebInfo -DDCHARTS_SANITIZE=address,undefined \
     -DDCHARTS_PLUGIN_PYMESHLAB=OFF -DDCHARTS_PLUGIN_2025=OFF -DDCHARTS_PLUGIN_2020=OFF
-  build_targets unit_tests_2025
+  build_targets unit_tests_2025 fuzz_meshes
   # Tests that only run the same code again and compare, and the largest shapes, would take most of the time.
   local again='Invariance.*:Threads.*:Cancelling.*:Pipeline/StageByStage.*:Stages.GiveTheSameBytes*'
   again+=':Shapes/PatternOfShape.HasEveryEdge*:Shapes/PatternOfShape.LiesOnTheSheet*:Shapes/PaperOf*'
-  local large='*/plush*:*/cad_part_paper:PatternSymmetry.PiecesComeInPairs*:Padding.*'
+  local large='*/plush*:*/cad_part_paper:PatternSymmetry.PiecesComeInPairs*:Padding.*:CorpusSoup.*'
   GTEST_FILTER="-$again:$large:Shapes.ShippedFilesAreUpToDate" \
     UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 \
-    ctest --test-dir "$build" --output-on-failure -j 2 -R unit_tests_2025
+    ctest --test-dir "$build" --output-on-failure -j 2 -R 'unit_tests_2025|fuzz_meshes'
 }
 
 step "format of the C++ code" check_format
 step "unit tests, examples" ctest --test-dir "$build" --output-on-failure -j 2
-step "unit tests with sanitizers" sanitized_unit_tests
+step "unit tests and fuzzer with sanitizers" sanitized_unit_tests
 # Last, so that the runner's own summary is the last line.
 [ ${#failed[@]} = 0 ] || printf 'FAILED: %s\n' "${failed[@]}" >&2
 step "tests in the hosts" env DCHARTS_SCREENSHOTS="$repo/out/screenshots" DCHARTS_BUILD="$build" \
