@@ -170,6 +170,19 @@ TEST(PageCuts, AHoleIsOpened) {
   ExpectOnPages(charts, before);
 }
 
+TEST(PageCuts, AHoleWithCornersIsNoPlaceForSlivers) {
+  const auto keep = [](double x, double y) {
+    return !(x > 100 && x < 300 && y > 100 && y < 300 && (x < 150 || y < 150));
+  };
+  const FlatCharts before = OneChart(Scaled(shapes::Grid(24, 24), 400, 400), keep);
+  FlatCharts charts = before;
+  CutToPages(kPage, {}, charts);
+  EXPECT_LE(charts.charts.size(), 9u);
+  for (const FlatChart& chart : charts.charts)
+    EXPECT_GT(MeasureStretch(chart.mesh, chart.uv).UvArea(), 0.02 * 400 * 400);
+  ExpectOnPages(charts, before);
+}
+
 TEST(PageCuts, TheNeighboursEdgesArePartedToo) {
   const SurfaceData grid = Scaled(shapes::Grid(2, 2), 400, 400);
   const FlatCharts before = ChartsOf(
@@ -177,6 +190,38 @@ TEST(PageCuts, TheNeighboursEdgesArePartedToo) {
   FlatCharts charts = before;
   CutToPages(kPage, {}, charts);
   EXPECT_GT(charts.charts.size(), 5u);
+  ExpectOnPages(charts, before);
+}
+
+// A tube laid flat: its left side is sewn to its right side, so a cut across it parts both sides of one edge.
+TEST(PageCuts, ATubeIsCutAcross) {
+  FlatCharts before = OneChart(Scaled(shapes::Grid(8, 30), 120, 900));
+  FlatChart& chart = before.charts[0];
+  const auto at = [&](int v) -> Point2 { return chart.uv.row(v).transpose(); };
+  std::vector<std::vector<ChartEdge>> edges;
+  for (const auto& edge : before.edges) {
+    const int h = edge[0].half_edge;
+    const Point2 a = at(StartOf(chart, h)), b = at(EndOf(chart, h));
+    if (a.x() > 119 && b.x() > 119) continue;
+    edges.push_back(edge);
+    if (a.x() > 1 || b.x() > 1) continue;
+    for (const auto& other : before.edges) {
+      const int g = other[0].half_edge;
+      if (at(StartOf(chart, g)).x() < 119 || at(EndOf(chart, g)).x() < 119) continue;
+      if (std::abs(at(StartOf(chart, g)).y() - b.y()) < 1 && std::abs(at(EndOf(chart, g)).y() - a.y()) < 1)
+        edges.back().push_back(other[0]);
+    }
+  }
+  before.edges = edges;
+  for (Eigen::Index v = 0; v < chart.uv.rows(); ++v)
+    for (Eigen::Index w = 0; w < chart.uv.rows(); ++w)
+      if (chart.uv(v, 0) > 119 && chart.uv(w, 0) < 1 && std::abs(chart.uv(v, 1) - chart.uv(w, 1)) < 1)
+        chart.model_vertex[v] = chart.model_vertex[w];
+  ASSERT_EQ(EulerOf(before), 0);
+  FlatCharts charts = before;
+  CutToPages(kPage, {}, charts);
+  EXPECT_LE(charts.charts.size(), 4u);
+  EXPECT_LT(SeamLength(charts), SeamLength(before) + 1.1 * 3 * 120);
   ExpectOnPages(charts, before);
 }
 

@@ -61,6 +61,10 @@ void AddAllowances(double allowance, Pattern& pattern) {
       continue;
     }
     const std::vector<Region> wide = Widened(net, allowance);
+    if (wide.empty()) {  // a piece without area
+      piece.cut = net;
+      continue;
+    }
     piece.cut.assign(1, wide.front().front());
     for (size_t h = 1; h < wide.front().size(); ++h) {
       const Polyline& hole = wide.front()[h];

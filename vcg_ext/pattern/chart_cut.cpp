@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -67,7 +68,9 @@ class Cutter {
 
   int Run(const BoundaryCrossing& from, const BoundaryCrossing& to) {
     const NamedEdge first_edge = Named({c_, from.half_edge}), last_edge = Named({c_, to.half_edge});
-    const int first = PartBoundary(first_edge, from.share), last = PartBoundary(last_edge, to.share);
+    const int first = PartBoundary(first_edge, from.share);
+    const int last = Find(chart_, last_edge.start, last_edge.end) >= 0 ? PartBoundary(last_edge, to.share)
+                                                                       : PartAgain(last_edge);
     PartInside(first, last);
     return TakeApart();
   }
@@ -110,6 +113,21 @@ class Cutter {
     ++next_model_vertex_;
     edges_.push_back(std::move(second));
     return vertex;
+  }
+
+  // The same for an edge that has a vertex already, as its other side was parted: that is taken if it is near
+  // enough to the line.
+  int PartAgain(const NamedEdge& edge) {
+    constexpr double kNear = 1;                      // mm
+    int v = static_cast<int>(chart_.uv.rows()) - 1;  // the sides' vertices came last
+    while (Find(chart_, edge.start, v) < 0 || Find(chart_, v, edge.end) < 0) --v;
+    if (std::abs(line_.Off(chart_.uv.row(v).transpose())) < kNear) {
+      side_[v] = 0;
+      return v;
+    }
+    const NamedEdge part =
+        side_[v] == side_[edge.start] ? NamedEdge{c_, v, edge.end} : NamedEdge{c_, edge.start, v};
+    return PartBoundary(part, ShareAt(Find(chart_, part.start, part.end)));
   }
 
   // From a vertex on the line, the half-edge of a triangle there that the line crosses next; -1: none.
@@ -169,7 +187,7 @@ class Cutter {
     const auto half_edges = HalfEdges(chart_);
     std::vector<std::array<int, 2>> cut_sides;
     for (const auto& [a, b] : cut_) cut_sides.push_back({half_edges.at({a, b}), half_edges.at({b, a})});
-    FindParts(half_edges, cut_sides);
+    FindParts(cut_sides);
     std::vector<FlatChart> parts = MakeParts();
     const int more = static_cast<int>(charts_.charts.size());
     const auto place = [&](int h) -> ChartEdge {
@@ -196,13 +214,8 @@ class Cutter {
   }
 
   // What is still joined: faces across edges, and corners of faces around vertices.
-  void FindParts(const std::map<std::pair<int, int>, int>& half_edges,
-                 const std::vector<std::array<int, 2>>& cut_sides) {
-    std::vector<int> opposite(3 * static_cast<size_t>(chart_.mesh.triangles.rows()), -1);
-    for (const auto& [ends, h] : half_edges) {
-      const auto other = half_edges.find({ends.second, ends.first});
-      if (other != half_edges.end()) opposite[h] = other->second;
-    }
+  void FindParts(const std::vector<std::array<int, 2>>& cut_sides) {
+    std::vector<int> opposite = OppositeHalfEdges(chart_);
     for (const auto& [h, g] : cut_sides) opposite[h] = opposite[g] = -1;
     corners_ = UnionFind(static_cast<int>(opposite.size()));
     part_of_.assign(opposite.size() / 3, -1);
@@ -275,6 +288,29 @@ class Cutter {
 };
 
 }  // namespace
+
+std::vector<int> OppositeHalfEdges(const FlatChart& chart) {
+  const auto half_edges = HalfEdges(chart);
+  std::vector<int> opposite(3 * static_cast<size_t>(chart.mesh.triangles.rows()), -1);
+  for (const auto& [ends, h] : half_edges) {
+    const auto other = half_edges.find({ends.second, ends.first});
+    if (other != half_edges.end()) opposite[h] = other->second;
+  }
+  return opposite;
+}
+
+int LeavesAt(const FlatChart& chart, const std::vector<int>& opposite, const PlaneLine& line, int half_edge) {
+  const auto is_left = [&](int v) { return line.Off(chart.uv.row(v).transpose()) >= 0; };
+  int h = half_edge;
+  for (size_t steps = 0; steps <= opposite.size(); ++steps) {
+    // Of the triangle's other edges, the one with ends on both sides.
+    const int next = 3 * (h / 3) + (h + 1) % 3, last = 3 * (h / 3) + (h + 2) % 3;
+    h = is_left(StartOf(chart, next)) != is_left(EndOf(chart, next)) ? next : last;
+    if (opposite[h] < 0) return h;
+    h = opposite[h];
+  }
+  return -1;
+}
 
 std::vector<BoundaryCrossing> CrossingsOf(const FlatChart& chart, const std::vector<int>& boundary,
                                           const PlaneLine& line) {

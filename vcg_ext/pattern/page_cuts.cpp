@@ -96,10 +96,15 @@ double Width(const std::vector<Turned>& turns) {
 /// Looks for the best straight cut of one chart.
 class CutFinder {
  public:
-  CutFinder(const FlatChart& chart, std::vector<int> boundary, const Point2& page)
-      : chart_(chart), boundary_(std::move(boundary)), page_(page) {
-    std::vector<char> is_boundary(3 * static_cast<size_t>(chart.mesh.triangles.rows()), 0);
-    for (int h : boundary_) is_boundary[h] = 1;
+  /// `places`: of the chart's half-edges on seams.
+  CutFinder(const FlatChart& chart, const std::vector<SeamPlace>& places, const Point2& page)
+      : chart_(chart), opposite_(OppositeHalfEdges(chart)), page_(page) {
+    std::vector<char> is_boundary(opposite_.size(), 0);
+    for (int h = 0; h < static_cast<int>(opposite_.size()); ++h) {
+      if (opposite_[h] >= 0) continue;
+      boundary_.push_back(h);
+      is_boundary[h] = 1;
+    }
     const ChartBoundary around = BoundaryOf(chart, is_boundary);
     place_.resize(is_boundary.size());
     std::vector<char> done(is_boundary.size(), 0);
@@ -110,8 +115,12 @@ class CutFinder {
         done[h] = 1;
         place_[h] = {static_cast<int>(loops_.size()) - 1, static_cast<int>(loops_.back().size())};
         loops_.back().push_back(chart.uv.row(StartOf(chart, h)).transpose());
+        if (places[h].seam != places[around.arriving[StartOf(chart, h)]].seam)
+          seam_ends_.push_back(loops_.back().back());
       }
     }
+    constexpr double kLeastWidth = 8;  // mm; of a narrower chart half of its width
+    least_width_ = std::min(kLeastWidth, Width(AllTurns(Points(), page)) / 2);
   }
 
   Polyline Points() const {
@@ -168,40 +177,62 @@ class CutFinder {
 
   void Try(const PlaneLine& line, Cut& best) const {
     const std::vector<BoundaryCrossing> crossings = CrossingsOf(chart_, boundary_, line);
-    for (size_t k = 0; k + 1 < crossings.size(); ++k) {
-      const BoundaryCrossing &from = crossings[k], &to = crossings[k + 1];
-      if (from.leaving || !to.leaving) continue;
-      const bool opens_hole = place_[from.half_edge].first != place_[to.half_edge].first;
-      const double cost = opens_hole ? CostOfAll(line, crossings) : Cost(line, from, to);
-      if (cost < best.cost) best = {line, from, to, cost};
+    for (const BoundaryCrossing& from : crossings) {
+      if (from.leaving) continue;
+      const int exit = LeavesAt(chart_, opposite_, line, from.half_edge);
+      const auto to = std::find_if(crossings.begin(), crossings.end(),
+                                   [&](const BoundaryCrossing& c) { return c.half_edge == exit; });
+      if (to == crossings.end() || to->along <= from.along) continue;
+      const bool opens_hole = place_[from.half_edge].first != place_[exit].first;
+      const double cost = (opens_hole ? CostOfAll(line, crossings) : Cost(line, from, *to)) +
+                          CostOfEnd(line, from) + CostOfEnd(line, *to);
+      if (cost < best.cost) best = {line, from, *to, cost};
     }
+  }
+
+  // Seams should not be shorter than can be sewn.
+  double CostOfEnd(const PlaneLine& line, const BoundaryCrossing& crossing) const {
+    constexpr double kClear = 15, kTooNear = 0.5;  // mm
+    double nearest = kClear;
+    for (const Point2& end : seam_ends_)
+      nearest = std::min(nearest, (line.at + crossing.along * line.direction - end).norm());
+    if (nearest < kTooNear) return std::numeric_limits<double>::infinity();
+    return 2 * page_.minCoeff() * (1 - nearest / kClear);
   }
 
   // In mm of seam: a page less is worth a long seam. Nobody wants slivers.
   double CostOfPart(const Polyline& part) const {
     constexpr double kPage = 2.5, kNarrow = 0.35;
     const std::vector<Turned> turns = AllTurns(part, page_);
+    if (Width(turns) < least_width_) return std::numeric_limits<double>::infinity();
     const double sliver = std::max(0.0, 1 - Width(turns) / (kNarrow * page_.minCoeff()));
     return kPage * page_.minCoeff() * (FewestPages(turns) + sliver);
   }
 
+  // Of a cut from a loop to itself, which parts the chart.
   double Cost(const PlaneLine& line, const BoundaryCrossing& from, const BoundaryCrossing& to) const {
-    const Polyline& loop = loops_[place_[from.half_edge].first];
-    const int size = static_cast<int>(loop.size());
-    double cost = to.along - from.along;
+    const int own = place_[from.half_edge].first, size = static_cast<int>(loops_[own].size());
+    Polyline parts[2];
     for (const bool second : {false, true}) {
-      const int begin = place_[(second ? to : from).half_edge].second,
-                end = place_[(second ? from : to).half_edge].second;
-      Polyline part;
-      for (const BoundaryCrossing& crossing : {from, to})
-        part.push_back(line.at + crossing.along * line.direction);
-      for (int k = begin; k != end;) {
+      const BoundaryCrossing &begin = second ? to : from, &end = second ? from : to;
+      Polyline& part = parts[second];
+      part.push_back(line.at + begin.along * line.direction);
+      for (int k = place_[begin.half_edge].second; k != place_[end.half_edge].second;) {
         k = (k + 1) % size;
-        part.push_back(loop[k]);
+        part.push_back(loops_[own][k]);
       }
-      cost += CostOfPart(part);
+      part.push_back(line.at + end.along * line.direction);
     }
-    return cost;
+    // The other loops are in the part around them. Of a hole that is cut across, one part is all around it.
+    const Polyline outlines[2] = {parts[0], parts[1]};
+    for (int l = 0; l < static_cast<int>(loops_.size()); ++l) {
+      if (l == own) continue;
+      bool second = SignedArea(outlines[1]) < 0;
+      for (const bool part : {false, true})
+        if (SignedArea(outlines[part]) > 0 && IsInside({outlines[part]}, loops_[l].front())) second = part;
+      parts[second].insert(parts[second].end(), loops_[l].begin(), loops_[l].end());
+    }
+    return to.along - from.along + CostOfPart(parts[0]) + CostOfPart(parts[1]);
   }
 
   // Of the whole line: a cut to a hole parts nothing yet, but with the ones after it does.
@@ -218,9 +249,11 @@ class CutFinder {
   }
 
   const FlatChart& chart_;
-  std::vector<int> boundary_;
+  std::vector<int> opposite_, boundary_;
   Point2 page_;
   std::vector<Polyline> loops_;
+  Polyline seam_ends_;
+  double least_width_ = 0;                  // of a part, mm
   std::vector<std::pair<int, int>> place_;  // per boundary half-edge: its loop, and where in it
 };
 
@@ -234,11 +267,7 @@ int CutToPages(const Point2& page, const std::function<void()>& poll, FlatCharts
   for (int c = 0; c < static_cast<int>(charts.charts.size()); ++c)
     while (cuts < kMostCuts) {
       if (poll) poll();
-      std::vector<int> boundary;
-      for (const auto& edge : charts.edges)
-        for (const ChartEdge& side : edge)
-          if (side.chart == c) boundary.push_back(side.half_edge);
-      const CutFinder finder(charts.charts[c], std::move(boundary), page);
+      const CutFinder finder(charts.charts[c], SeamsOf(charts).places[c], page);
       if (PagesFor(finder.Points(), page) <= 1) break;
       const CutFinder::Cut cut = finder.Best();
       if (!std::isfinite(cut.cost)) break;
