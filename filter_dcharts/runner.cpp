@@ -37,14 +37,6 @@ SurfaceChange MakePatternLayerAndFile(const SurfaceData& mesh, const Params& par
   SurfaceChange change;
   change.report = std::move(result.report);
   change.pieces = LayerOf(result.pattern);
-  for (const std::string& warning : result.pattern.warnings) progress.Log(warning);
-  std::string points = "Outline points per piece:";
-  for (const Piece& piece : result.pattern.pieces) {
-    std::size_t count = 0;
-    for (const OutlineLoop& loop : piece.loops) count += loop.size();
-    points += " " + std::to_string(count);
-  }
-  progress.Log(points);
   if (!params.output_file.empty())
     for (const std::string& line : WritePattern(result.pattern, mesh, params)) progress.Log(line);
   return change;

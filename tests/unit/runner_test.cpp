@@ -147,6 +147,27 @@ TEST(Runner, RunsAFilterAndMeasuresItsSeconds) {
   EXPECT_GE(*change.report.seconds, 0);
 }
 
+TEST(Runner, APatternLogsEachThingOnce) {
+  // A strip beside a square: narrower than the allowance, so there is a warning too.
+  SurfaceData mesh = Square();
+  mesh.vertices.insert(mesh.vertices.end(), {{3, 0, 0}, {3.04, 0, 0}, {3.04, 1, 0}});
+  mesh.faces.push_back({4, 5, 6});
+  Params params;
+  params.size = 200;
+  std::vector<std::string> log;
+  Progress progress({}, [&](const std::string& line) { log.push_back(line); });
+  RunFilter(GetFilter(FilterId::kPattern), &mesh, params, progress);
+  std::sort(log.begin(), log.end());
+  EXPECT_EQ(std::adjacent_find(log.begin(), log.end()), log.end());
+  int points = 0, narrow = 0;
+  for (const std::string& line : log) {
+    points += line.find("oints") != std::string::npos;
+    narrow += line.find("Narrower than the seam allowance") != std::string::npos;
+  }
+  EXPECT_EQ(points, 1);
+  EXPECT_EQ(narrow, 1);
+}
+
 TEST(Runner, ACallbackThatReturnsFalseCancels) {
   const SurfaceData mesh = Square();
   Progress progress([](int, const char*) { return false; });
