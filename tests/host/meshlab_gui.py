@@ -58,11 +58,11 @@ class MeshlabGui:
         self.session.keys('Down', 'Return')
         return self.session.wait_for_window(name)
 
-    def apply(self, name, seconds=240, typed=None, saved_as=None):
+    def apply(self, name, seconds=240, typed=None, saved_as=None, chosen=None):
         """Applies a filter, waits until MeshLab says it is done, and takes the filter's dialog off the screen. Parameters
-        have their defaults, but for what is typed into fields: {number of the field, from 0: text}, and for the name of
-        a file to write, the last of them: (number of the field, text), given in the dialog behind its button (2020.09
-        does not look at what is typed beside that)."""
+        have their defaults, but for what is typed into fields: {number of the field, from 0: text}, for what is chosen in
+        menus: {number of the field: line, from 0}, and for the name of a file to write, the last of them: (number of the
+        field, text), given in the dialog behind its button (2020.09 does not look at what is typed beside that)."""
         window = self.open_filter(name)
         height = int(re.search(r'Geometry: \d+x(\d+)', self.session.xdotool('getwindowgeometry', window)).group(1))
         assert height <= 1050, f'the dialog of {name} is {height} pixels high: Apply is below a screen of 1080'
@@ -70,11 +70,14 @@ class MeshlabGui:
         time.sleep(0.3)
         done = len(self.applied(name))
         place = 0  # on Apply, which has the focus
-        for field, text in sorted((typed or {}).items()):
+        for field, value in sorted({**(typed or {}), **(chosen or {})}.items()):
             self._step(self.first_field + field - place)
             place = self.first_field + field
+            if isinstance(value, int):
+                self.session.keys('Home', *['Down'] * value)
+                continue
             self.session.keys('ctrl+a')
-            self.session.write(text)
+            self.session.write(value)
         if saved_as:
             self._step(self.first_field + saved_as[0] + 1 - place)
             place = self.first_field + saved_as[0] + 1

@@ -8,15 +8,15 @@ import pytest
 from scipy.spatial import cKDTree
 
 from cases import is_sentence
+from made_patterns import ENDINGS, MODELS, SIZE, made_pattern
 from pattern_files import LEGEND, dxf_layers, dxf_pieces, length, outline_lengths, pdf_pages, svg_pieces, svg_texts
 from sheet_overlap import doubled_allowances, read_groups
 
 pymeshlab = pytest.importorskip('pymeshlab')
 pytest.importorskip('pymeshlab_dcharts')
 
-SIZE = 240.0
 ALLOWANCE = 7.0  # mm, the default
-MODELS = {'plush': 'Fabric', 'bishop': 'Fabric', 'spot': 'Fabric', 'cad_part': 'Paper', 'fandisk_9926': 'Paper'}
+ALL_MODELS = {**MODELS, 'cad_part': 'Paper'}
 CLOSE = 0.01  # mm
 STITCH = (0.22, 0.3)  # mm, line widths in the PDF
 
@@ -32,15 +32,12 @@ def area(mesh):
     return np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2
 
 
-@pytest.fixture(scope='module', params=MODELS)
-def made(request, model_file, tmp_path_factory):
-    """(model, material, MeshSet, folder) with the three files written."""
-    folder = tmp_path_factory.mktemp(request.param)
-    material = MODELS[request.param]
-    for ending in ('svg', 'dxf', 'pdf'):
-        ms = load(model_file(request.param))
-        ms.dcharts_pattern(material=material, size=SIZE, output_file=str(folder / f'pattern.{ending}'))
-    return request.param, material, ms, folder
+@pytest.fixture(scope='module', params=ALL_MODELS)
+def made(request, model_file):
+    """(model, material, MeshSet, {ending: file}) with the three files written."""
+    material = ALL_MODELS[request.param]
+    patterns = {ending: made_pattern(model_file(request.param), material, ending) for ending in ENDINGS}
+    return request.param, material, patterns['svg'][0], {ending: file for ending, (_, file) in patterns.items()}
 
 
 def test_layer(made):
@@ -57,9 +54,9 @@ def test_layer(made):
 
 
 def test_lengths_are_those_of_the_layer_in_every_file(made):
-    _, material, ms, folder = made
+    _, material, ms, files = made
     expected = outline_lengths(ms.mesh(1))
-    svg, dxf = svg_pieces(folder / 'pattern.svg'), dxf_pieces(folder / 'pattern.dxf')
+    svg, dxf = svg_pieces(files['svg']), dxf_pieces(files['dxf'])
     assert set(svg) == set(dxf) == set(expected)
     sewn = 'stitch' if material == 'Fabric' else 'net'
     for piece, wanted in expected.items():
@@ -67,7 +64,7 @@ def test_lengths_are_those_of_the_layer_in_every_file(made):
         assert sum(length(*line) for line in dxf[piece]['14']) == pytest.approx(wanted, abs=CLOSE)
         cut = sum(length(*line) for line in svg[piece]['cut'])
         assert sum(length(*line) for line in dxf[piece]['1']) == pytest.approx(cut, abs=CLOSE)
-    sheet = pdf_pages(folder / 'pattern.pdf')[-1]
+    sheet = pdf_pages(files['pdf'])[-1]
     cut = sum(length(*line) for layers in svg.values() for line in layers['cut'])
     assert sum(length(points, closed) for width, points, closed in sheet if abs(width - 0.35) < 1e-3) == pytest.approx(
         cut + LEGEND, abs=CLOSE)
@@ -78,14 +75,14 @@ def test_lengths_are_those_of_the_layer_in_every_file(made):
 
 
 def test_dxf_layers(made):
-    _, material, _, folder = made
-    assert ({'1', '4', '7', '14'} if material == 'Fabric' else {'1', '8'}) <= dxf_layers(folder / 'pattern.dxf')
+    _, material, _, files = made
+    assert ({'1', '4', '7', '14'} if material == 'Fabric' else {'1', '8'}) <= dxf_layers(files['dxf'])
 
 
 def test_notation(made):
     """Each piece has its name, quantity and side; each seam is named on both its sides, each match point twice."""
-    _, material, _, folder = made
-    texts = svg_texts(folder / 'pattern.svg')
+    _, material, _, files = made
+    texts = svg_texts(files['svg'])
     pieces = {name: t for name, t in texts.items() if name.startswith('piece-')}
     for name, of_piece in pieces.items():
         assert f'Piece {name.removeprefix("piece-")}' in of_piece
@@ -107,8 +104,8 @@ def test_notation(made):
 
 def test_seams_have_equal_sides(made):
     """By the SVG alone: the two sides of a seam are as long as each other, but for the ease."""
-    _, material, _, folder = made
-    text = (folder / 'pattern.svg').read_text()
+    _, material, _, files = made
+    text = (files['svg']).read_text()
     sides = {}
     for path, seam, _ in re.findall(r'<path d="M([^"]*)"[^>]* data-seam="(\d+)" data-side="(\d+)"/>', text):
         points = np.array(re.findall(r'-?[\d.]+', path), float).reshape(-1, 2)
@@ -120,9 +117,9 @@ def test_seams_have_equal_sides(made):
 
 def test_there_is_room_for_the_allowance(made):
     """Pieces do not come so near to themselves that allowances lie on each other."""
-    _, material, _, folder = made
+    _, material, _, files = made
     if material == 'Fabric':
-        assert doubled_allowances(read_groups(folder / 'pattern.svg'), ALLOWANCE) == []
+        assert doubled_allowances(read_groups(files['svg']), ALLOWANCE) == []
 
 
 def noisy(path):

@@ -3,23 +3,14 @@
 import numpy as np
 import pytest
 
+from made_patterns import MODELS, SIZE, made_pattern
 from pattern_files import outline_lengths
 from sewing import ROUNDING, Sewn, read_seam_table, read_sides
 
 pymeshlab = pytest.importorskip('pymeshlab')
 pytest.importorskip('pymeshlab_dcharts')
 
-SIZE = 240.0
-MODELS = {
-    'plush': 'Fabric',
-    'torus': 'Fabric',
-    'bishop': 'Fabric',
-    'cad_part': 'Paper',
-    'cylinder': 'Paper',
-    'spot': 'Fabric',
-    'bunny': 'Fabric',
-    'fandisk_9926': 'Paper',
-}
+ALL_MODELS = {**MODELS, 'torus': 'Fabric', 'cad_part': 'Paper', 'cylinder': 'Paper'}
 MOST_EASE = {'Fabric': 0.01, 'Paper': 0.001}
 BORDER = {'Fabric': 0.05, 'Paper': 0.002}  # of the border's length: simplified by up to 2 mm, it loses teeth
 
@@ -33,20 +24,18 @@ def euler_and_border(mesh):
     return len(np.unique(faces)) - len(edges) + len(faces), np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).sum()
 
 
-@pytest.fixture(scope='module', params=[(name, ending) for name in MODELS for ending in ('svg', 'dxf')],
+@pytest.fixture(scope='module', params=[(name, ending) for name in ALL_MODELS for ending in ('svg', 'dxf')],
                 ids=lambda of: '-'.join(of))
 def sewn(request, model_file, tmp_path_factory):
     """(name, material, MeshSet, Sewn, seam table). A DXF has been read and written by another program."""
     name, ending = request.param
-    ms = pymeshlab.MeshSet()
-    ms.load_new_mesh(str(model_file(name)))
-    file = tmp_path_factory.mktemp(name) / f'pattern.{ending}'
-    ms.dcharts_pattern(material=MODELS[name], size=SIZE, output_file=str(file))
+    ms, file = made_pattern(model_file(name), ALL_MODELS[name], ending)
     if ending == 'dxf':
         ezdxf = pytest.importorskip('ezdxf')
-        original, file = file, file.with_name('saved.dxf')
-        ezdxf.readfile(original).saveas(file)
-    return name, MODELS[name], ms, Sewn(read_sides(file)), read_seam_table(file)
+        saved = tmp_path_factory.mktemp(name) / 'saved.dxf'
+        ezdxf.readfile(file).saveas(saved)
+        file = saved
+    return name, ALL_MODELS[name], ms, Sewn(read_sides(file)), read_seam_table(file)
 
 
 def test_every_seam_closes(sewn):
@@ -84,3 +73,16 @@ def test_every_point_of_the_outlines_is_in_a_seam(sewn):
 def test_it_is_the_model_again(sewn):
     _, _, ms, pieces, _ = sewn
     assert pieces.euler() == euler_and_border(ms.mesh(0))[0]
+
+
+def test_pieces_split_for_pages_are_sewn_back(tmp_path, plush):
+    """Straight seams across pieces larger than a page join what they parted."""
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh(str(plush))
+    whole, split = (ms.dcharts_pattern(size=600.0, page='A4', oversize=oversize, output_file=str(tmp_path / 'pattern.svg'))
+                    for oversize in ('Tile', 'Split Piece'))
+    pieces = Sewn(read_sides(tmp_path / 'pattern.svg'))
+    assert len(pieces.loops()) == split['charts'] > 1.5 * whole['charts']
+    assert pieces.euler() == euler_and_border(ms.mesh(0))[0]
+    for number in pieces.seams:
+        assert max(pieces.mismatch(number)) < MOST_EASE['Fabric']
