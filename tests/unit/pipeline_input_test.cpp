@@ -191,12 +191,24 @@ TEST(Taken, ManyFacesWithoutArea) {
 }
 
 TEST(Taken, VerySmallFacesAmongLargeOnes) {
-  SurfaceData mesh = shapes::Grid(4, 4);
-  SurfaceData tiny = shapes::Sphere(2);
-  const int first = static_cast<int>(mesh.vertices.size());
-  for (auto p : tiny.vertices) mesh.vertices.push_back({1e-7 * p[0], 1e-7 * p[1], 1 + 1e-7 * p[2]});
-  for (auto f : tiny.faces) mesh.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
-  for (const auto& [name, stage] : kStages) EXPECT_EQ(Refusal(stage, mesh), "") << name;
+  // Crumpled, of sizes at which faces still count to such that they are without area beside the others.
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> place(-1, 1);
+  for (double size : {1e-5, 1e-6, 3e-7, 1e-7, 3e-8, 1e-9}) {
+    SurfaceData mesh = shapes::Grid(2, 2);
+    const int first = static_cast<int>(mesh.vertices.size());
+    SurfaceData tiny = shapes::Cube(1);
+    for (auto& p : tiny.vertices)
+      for (double& x : p) x += place(random);
+    for (const auto& p : tiny.vertices) mesh.vertices.push_back({size * p[0], size * p[1], 1 + size * p[2]});
+    for (const auto& f : tiny.faces) mesh.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
+    for (const auto& [name, stage] : kStages) EXPECT_EQ(Refusal(stage, mesh), "") << name;
+    Progress progress;
+    const SurfaceChange atlas = TextureAtlas(mesh, Params(), progress);
+    EXPECT_EQ(test::WrongInAtlas(mesh, atlas, false), "") << size;
+    // They are not taken apart just because rounding crumples them.
+    EXPECT_LE(*atlas.report.charts, 7) << size;
+  }
 }
 
 TEST(Taken, DuplicateFaces) {

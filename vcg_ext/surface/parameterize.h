@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "common/parallel.h"
 #include "common/params.h"
 #include "common/progress.h"
@@ -332,7 +334,8 @@ class Parameterizer {
   std::vector<int> PackAndRound(const ChartIds& ids, const SeamMask& seams,
                                 const std::vector<double>& face_density, WedgeTexcoords& uv) {
     const int chart_count = ChartCount(ids);
-    const std::vector<double> density = ChartDensities(surface_, ids, face_density);
+    std::vector<double> density = ChartDensities(surface_, ids, face_density);
+    EnlargeTinyCharts(ids, density);
     std::vector<std::vector<double>> rows(chart_count);
     for (int h = 0; h < surface_.HalfEdgeCount(); ++h) {
       if (surface_.Opposite(h) >= 0 && !IsSeam(seams, h)) continue;
@@ -385,6 +388,19 @@ class Parameterizer {
     std::sort(bad.begin(), bad.end());
     bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
     return bad;
+  }
+
+  // A chart that is hardly larger than a step of the texcoords' grid would be crumpled by rounding: it gets
+  // more texels. It has next to no area, so no figure changes. The surface's area is 1.
+  void EnlargeTinyCharts(const ChartIds& ids, std::vector<double>& density) const {
+    constexpr double kLeastSize = 2e-4;  // about 2000 steps
+    std::vector<Eigen::AlignedBox2d> box(density.size());
+    for (int h = 0; h < surface_.HalfEdgeCount(); ++h)
+      box[ids[h / 3]].extend(Eigen::Vector2d(wedge_[h / 3][2 * (h % 3)], wedge_[h / 3][2 * (h % 3) + 1]));
+    for (size_t c = 0; c < density.size(); ++c) {
+      const double size = box[c].diagonal().norm();
+      if (size > 0) density[c] = std::max(density[c], kLeastSize / size);
+    }
   }
 
   static constexpr size_t kMostOverlaps = 500'000;
