@@ -219,6 +219,22 @@ TEST(PatternFolds, BendsBelowTheAngleAreNone) {
   EXPECT_TRUE(pattern.pieces[0].folds.empty());
 }
 
+// A sheet of 200 mm with a bump of a height (mm) in its middle.
+TEST(PatternFolds, AGentleBumpHasNoCreasesASharpOneHas) {
+  for (const double height : {4.0, 15.0}) {
+    SurfaceData mesh = shapes::Grid(20, 20);
+    for (auto& v : mesh.vertices) {
+      for (int d : {0, 1}) v[d] *= 200;
+      if (std::abs(v[0] - 100) < 1 && std::abs(v[1] - 100) < 1) v[2] = height;
+    }
+    const FlatCharts charts = ChartsOf(
+        mesh, [](const Point3&) { return 0; }, FromAbove);
+    Pattern pattern = FinePattern(charts);
+    AddFolds(charts.charts[0], 20, pattern.pieces[0]);
+    EXPECT_EQ(pattern.pieces[0].folds.empty(), height < 10) << height;
+  }
+}
+
 // A part of a tube, its axis at 30 degrees in the flat piece.
 FlatCharts Tube(double radius, double angle_around, double length) {
   SurfaceData mesh = shapes::Grid(40, 20);

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "common/pi.h"
+#include "common/union_find.h"
 #include "pattern/outline.h"
 #include "pattern/segments.h"
 
@@ -50,6 +52,36 @@ std::vector<FoldEdge> FoldEdgesOf(const FlatChart& chart, double least_degrees) 
   return edges;
 }
 
+// A crease in paper does not end within it: edges that do, and specks of creases, are where a curved part
+// bends most. Those of a sharp bend stay, wherever they are.
+void DropLooseEdges(const FlatChart& chart, double least_degrees, std::vector<FoldEdge>& edges) {
+  constexpr double kSharp = 2, kSpeck = 12;  // of the least angle; mm
+  std::vector<char> at_outline(chart.uv.rows(), 0);
+  std::set<std::pair<int, int>> half_edges;
+  for (int h = 0; h < 3 * static_cast<int>(chart.mesh.triangles.rows()); ++h)
+    half_edges.insert({StartOf(chart, h), EndOf(chart, h)});
+  for (const auto& [a, b] : half_edges)
+    if (half_edges.count({b, a}) == 0) at_outline[a] = at_outline[b] = 1;
+  UnionFind joined(static_cast<int>(chart.uv.rows()));
+  for (const FoldEdge& edge : edges) joined.Join(edge.a, edge.b);
+  struct Crease {
+    double length = 0, sharpest = 0;
+    bool reaches_outline = false;
+  };
+  std::map<int, Crease> creases;
+  for (const FoldEdge& edge : edges) {
+    Crease& crease = creases[joined.Find(edge.a)];
+    crease.length += (chart.uv.row(edge.a) - chart.uv.row(edge.b)).norm();
+    crease.sharpest = std::max(crease.sharpest, std::abs(edge.degrees));
+    crease.reaches_outline |= at_outline[edge.a] != 0 || at_outline[edge.b] != 0;
+  }
+  const auto is_loose = [&](const FoldEdge& edge) {
+    const Crease& crease = creases[joined.Find(edge.a)];
+    return crease.sharpest < kSharp * least_degrees && (!crease.reaches_outline || crease.length < kSpeck);
+  };
+  edges.erase(std::remove_if(edges.begin(), edges.end(), is_loose), edges.end());
+}
+
 }  // namespace
 
 std::vector<std::pair<Point2, Point2>> ClipToRegion(const Point2& a, const Point2& b,
@@ -80,6 +112,7 @@ std::vector<std::pair<Point2, Point2>> ClipToRegion(const Point2& a, const Point
 
 void AddFolds(const FlatChart& chart, double least_degrees, Piece& piece) {
   std::vector<FoldEdge> edges = FoldEdgesOf(chart, least_degrees);
+  DropLooseEdges(chart, least_degrees, edges);
   std::multimap<int, size_t> at_vertex;
   for (size_t e = 0; e < edges.size(); ++e) {
     at_vertex.insert({edges[e].a, e});

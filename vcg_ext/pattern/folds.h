@@ -10,7 +10,8 @@
 namespace dcharts {
 
 /// Gives a piece of paper its fold lines: where it bends by `least_degrees` or more along edges of the model.
-/// Lines that go on straight are joined; they end at the net outline.
+/// Lines that go on straight are joined; they end at the net outline. Edges are left out that are no crease:
+/// less than twice as sharp, and without any way to the outline or shorter than 12 mm in all.
 void AddFolds(const FlatChart& chart, double least_degrees, Piece& piece);
 
 /// Gives it rulings where it bends less sharply: straight lines along which it doesn't bend, at least
