@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "common/errors.h"
 #include "pattern/chart_cut.h"
 #include "pattern/page_cuts.h"
 #include "pattern_fixture.h"
@@ -223,6 +224,11 @@ TEST(PageCuts, ATubeIsCutAcross) {
   EXPECT_LE(charts.charts.size(), 4u);
   EXPECT_LT(SeamLength(charts), SeamLength(before) + 1.1 * 3 * 120);
   ExpectOnPages(charts, before);
+}
+
+TEST(PageCuts, HundredsOfPagesAreRefused) {
+  FlatCharts charts = OneChart(Scaled(shapes::Grid(2, 2), 5000, 5000));
+  EXPECT_THROW(CutToPages(kPage, {}, charts), Error);
 }
 
 TEST(PageCuts, OneTriangleIsEnough) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/errors.h"
 #include "common/pi.h"
 #include "pattern/chart_cut.h"
 #include "pattern/seam_graph.h"
@@ -153,8 +154,10 @@ class CutFinder {
       for (int k = 1; k < kPlaces; ++k) places.push_back(low + (high - low) * k / kPlaces);
       // As far from either end as fits onto pages.
       constexpr double kLess = 0.999;
+      constexpr int kMostPages = 6;
       for (const double side : {page_.x(), page_.y()})
-        for (double reach = kLess * side; reach < high - low; reach += kLess * side)
+        for (double reach = kLess * side; reach < std::min(high - low, kMostPages * side);
+             reach += kLess * side)
           for (const double place : {low + reach, high - reach}) places.push_back(place);
       const Point2 normal(-line.direction.y(), line.direction.x());
       for (const double place : places) {
@@ -262,7 +265,17 @@ class CutFinder {
 int PagesFor(const Polyline& points, const Point2& page) { return FewestPages(AllTurns(points, page)); }
 
 int CutToPages(const Point2& page, const std::function<void()>& poll, FlatCharts& charts) {
-  constexpr int kMostCuts = 500;
+  constexpr int kMostPages = 200, kMostCuts = 500;
+  double pages = 0;
+  for (const FlatChart& chart : charts.charts) {
+    Polyline points;
+    for (Eigen::Index v = 0; v < chart.uv.rows(); ++v) points.push_back(chart.uv.row(v).transpose());
+    const int own = PagesFor(points, page);
+    if (own > 1) pages += own;
+  }
+  if (pages > kMostPages)
+    throw Error("Pieces that fit onto pages would be more than " + std::to_string(kMostPages) +
+                ". Choose a larger page or 'Tile', or a smaller size.");
   int cuts = 0;
   for (int c = 0; c < static_cast<int>(charts.charts.size()); ++c)
     while (cuts < kMostCuts) {
