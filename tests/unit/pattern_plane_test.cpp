@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "common/errors.h"
 #include "common/pi.h"
 #include "pattern/folds.h"
 #include "pattern/label_place.h"
@@ -80,6 +81,12 @@ TEST(PatternRegions, ANarrowDartIsFilledAndAWideOneIsNot) {
   ASSERT_EQ(wide.size(), 1u);
   EXPECT_FALSE(IsInside(wide[0], {50, 60}));
   EXPECT_TRUE(IsInside(wide[0], {50, 22}));  // at the tip there is an allowance too
+}
+
+TEST(PatternRegions, WhatIsTooLargeForTheGridIsRefused) {
+  EXPECT_EQ(Widened({Rectangle(130000, 100)}, 7).size(), 1u);
+  for (const double length : {140000.0, 500000.0, 1e9, 1e300, std::nan("")})
+    EXPECT_THROW(Widened({Rectangle(length, 100)}, 7), Error) << length;
 }
 
 TEST(PatternRegions, AHoleShrinks) {

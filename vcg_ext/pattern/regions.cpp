@@ -6,6 +6,7 @@
 
 #include <boost/polygon/polygon.hpp>
 
+#include "common/errors.h"
 #include "common/pi.h"
 #include "pattern/segments.h"
 
@@ -18,7 +19,12 @@ using GridPolygon = bp::polygon_data<int>;
 using GridRegion = bp::polygon_with_holes_data<int>;
 using GridSet = bp::polygon_set_data<int>;
 
+// So that differences stay within int, as the polygon library asks.
+constexpr double kLargest = 131072;  // mm
+
 GridPoint ToGrid(const Point2& p) {
+  if (!(p.cwiseAbs().maxCoeff() <= kLargest))
+    throw Error("A flat piece would be larger than 130 m. Give a smaller size, or a smaller max_stretch.");
   return {static_cast<int>(std::lround(p.x() * kGridPerMm)),
           static_cast<int>(std::lround(p.y() * kGridPerMm))};
 }

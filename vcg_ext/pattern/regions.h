@@ -10,7 +10,8 @@ namespace dcharts {
 /// Corners of regions are on a grid, so that what is computed of them is exact.
 constexpr double kGridPerMm = 4096;
 
-/// A connected part of the plane: the outer loop counterclockwise, holes clockwise. |coordinates| <= 500 m.
+/// A connected part of the plane: the outer loop counterclockwise, holes clockwise. |coordinates| <= 131 m:
+/// what lies beyond is refused by all functions here with an Error.
 using Region = std::vector<Polyline>;
 
 /// What any of the regions covers, as regions apart from each other, the largest first.
