@@ -12,6 +12,7 @@
 #include "planar/overlap.h"
 #include "planar/trial_flatten.h"
 #include "surface/chart_groups.h"
+#include "surface/dissolve_charts.h"
 #include "surface/greedy_merge.h"
 #include "surface/merge_improvement.h"
 #include "surface/stretch_darts.h"
@@ -31,6 +32,7 @@ class CheckedMerger {
     constexpr int kManyFaces = 50000;
     if (greedy_.MayMergeMore() && bound < kNoBound && groups_.parts.FineFaceCount() <= kManyFaces)
       MergeWithDarts();
+    if (groups_.params.target_charts == 0 && bound < kNoBound) Dissolve();
     if (groups_.params.target_charts > 0 && greedy_.MayMergeMore()) Merge(kNoBound);
     Improve();
   }
@@ -50,6 +52,35 @@ class CheckedMerger {
     }
   }
 
+  // Charts that can be given away in pieces, the smallest first.
+  void Dissolve() {
+    for (bool again = true; again;) {
+      again = false;
+      std::vector<std::pair<double, int>> order;
+      for (int c = 0; c < static_cast<int>(groups_.charts.size()); ++c)
+        if (groups_.charts[c].alive) order.push_back({groups_.charts[c].area, c});
+      std::sort(order.begin(), order.end());
+      for (const auto& [area, c] : order)
+        if (groups_.charts[c].alive) again |= DissolveChart(c);
+    }
+  }
+
+  // What doesn't hold on the fine surface is not made again.
+  bool DissolveChart(int c) {
+    ChartDissolver<MeshType> dissolver(groups_);
+    constexpr int kRounds = 3;
+    for (int round = 0; round < kRounds && dissolver.FindPlaces(c); ++round) {
+      const auto before = groups_.charts;
+      dissolver.Apply();
+      const std::vector<Failure> failures = Unfit();
+      if (failures.empty()) return true;
+      Forbid(failures);
+      groups_.charts = before;
+      ++groups_.alive;
+    }
+    return false;
+  }
+
   // What doesn't hold on the fine surface is not made again.
   void Improve() {
     const auto before = groups_.charts;
@@ -58,10 +89,7 @@ class CheckedMerger {
       if (!MergeImprover<MeshType>(groups_).Run(before)) return;
       const std::vector<Failure> failures = Unfit();
       if (failures.empty()) return;
-      for (const Failure& failure : failures) {
-        groups_.apart.insert(failure.overlaps.begin(), failure.overlaps.end());
-        groups_.Forbid(groups_.charts[failure.chart].parts);
-      }
+      Forbid(failures);
       groups_.charts = before;
     }
   }
@@ -71,6 +99,13 @@ class CheckedMerger {
     int chart;
     std::set<std::pair<int, int>> overlaps;
   };
+
+  void Forbid(const std::vector<Failure>& failures) {
+    for (const Failure& failure : failures) {
+      groups_.apart.insert(failure.overlaps.begin(), failure.overlaps.end());
+      groups_.Forbid(groups_.charts[failure.chart].parts);
+    }
+  }
 
   // Checks all new charts on the fine surface; returns those that fail.
   std::vector<Failure> Unfit() {
@@ -137,7 +172,7 @@ class CheckedMerger {
     return !failures.empty();
   }
 
-  // Pairs that are above the bound together, but not with a dart or two that are shorter than their border.
+  // Pairs that are above the bound together, but not with some darts, if seams don't get longer by that.
   void MergeWithDarts() {
     constexpr double kWorthTrying = 1.4;
     std::set<std::pair<int, int>> failed;
@@ -154,11 +189,12 @@ class CheckedMerger {
       std::sort(pairs.begin(), pairs.end());
       bool merged = false;
       for (const auto& [stretch, a, b] : pairs) {
-        if (!FlatWithDarts(a, b)) {
+        ChartTrial both = groups_.Trial(groups_.PartsOfBoth(a, b));
+        if (!LiesFlatWithDarts(a, b, both.cut_length)) {
           failed.insert({a, b});
           continue;
         }
-        groups_.charts[groups_.Join(a, b, groups_.Trial(groups_.PartsOfBoth(a, b)))].verified = true;
+        groups_.charts[groups_.Join(a, b, both)].verified = true;
         merged = true;
         break;
       }
@@ -166,11 +202,14 @@ class CheckedMerger {
     }
   }
 
-  bool FlatWithDarts(int a, int b) {
+  // `cut_length` is set to that of all cuts, model units.
+  bool LiesFlatWithDarts(int a, int b, double& cut_length) {
     constexpr int kMostDarts = 4;
     const std::vector<int> both = groups_.PartsOfBoth(a, b);
+    const auto &one = groups_.charts[a], &other = groups_.charts[b];
+    const double longest =
+        one.borders.at(b) * groups_.parts.Unit() + one.trial.cut_length + other.trial.cut_length;
     for (const bool coarse : {true, false}) {
-      double cut_length = 0;
       const ChartPatch open =
           Opened(coarse ? groups_.parts.CoarsePatch(both) : groups_.parts.FinePatch(both), cut_length);
       DartGoal goal;
@@ -178,8 +217,11 @@ class CheckedMerger {
       goal.linf_stretch = kNoBound;
       goal.most_darts = kMostDarts;
       goal.longest = groups_.params.max_dart_percent / 100 * open.Diagonal();
-      goal.most_length = groups_.charts[a].borders[b] * groups_.parts.Unit();
+      // No bound on the length here: Cut has none and is to find the same darts.
       const DartedChart darted = CutStretchDarts(open, nullptr, goal, groups_.Poll());
+      for (int h : darted.edges) cut_length += open.Length(h);
+      constexpr double kRounding = 1e-6;  // darts to the corners of a box may be just as long as its rim
+      if (cut_length > (1 + kRounding) * longest) return false;
       if (!darted.flat.ok || darted.flat.l2_stretch > goal.l2_stretch) return false;
       if (!OverlappingPairs(OnGrid(darted.flat.uv, darted.patch.mesh.triangles), 1).empty()) return false;
     }

@@ -118,8 +118,8 @@ class BorderRefiner {
     for (int c : which) patches.push_back(extractor.Extract(faces[c]));
     ParallelFor(static_cast<int>(which.size()), progress_, [&](int k, const std::function<void()>& poll) {
       Chart& chart = state.charts[which[k]];
-      // One that needs a dart to keep within the bound may stay as it is.
-      const bool is_first = chart.patch.faces.empty();
+      // Without a number of charts to keep to, one above the bound needs the darts that it was tried with.
+      const bool may_exceed = chart.patch.faces.empty() && params_.target_charts > 0;
       const double bound = std::max(params_.StretchBound(), chart.stretch);
       double cut_length = 0;
       ChartPatch patch = Opened(patches[k], cut_length);
@@ -131,7 +131,7 @@ class BorderRefiner {
       }
       chart.patch = std::move(patch);
       TrialFlattening flat = TrialFlatten(chart.patch.mesh, options, poll);
-      chart.good = flat.ok && (is_first || flat.l2_stretch <= bound) &&
+      chart.good = flat.ok && (may_exceed || flat.l2_stretch <= bound) &&
                    OverlappingPairs(OnGrid(flat.uv, chart.patch.mesh.triangles), 1).empty();
       chart.cost = flat.energy * chart.patch.Area() / surface_.TotalArea() + SeamCost(cut_length);
       chart.stretch = flat.l2_stretch;

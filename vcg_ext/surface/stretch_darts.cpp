@@ -142,7 +142,7 @@ bool CutConePoints(const DartGoal& goal, const std::function<void()>& poll, Dart
                                           [&](int g, int h) { return distance(g) < distance(h); });
     const double length = distance(*nearest);
     total_length += length;
-    if (!(length <= goal.longest && total_length <= goal.most_length)) return false;
+    if (!(length <= goal.longest)) return false;
     const std::vector<int> cut = paths.Path(darted.patch.Vertex(*nearest));
     darted.edges.insert(darted.edges.end(), cut.begin(), cut.end());
     darted.count += !cut.empty();  // a dart may have run through it
@@ -170,7 +170,7 @@ class DartSearch {
         hopeless_(chart.patch.faces.size(), 0) {}
 
   void Run() {
-    constexpr int kMostFailures = 2;
+    constexpr int kMostFailures = 4;
     for (int failures = 0;
          chart_.count < goal_.most_darts && failures < kMostFailures && !Reached(chart_.flat, goal_);) {
       PatchPaths paths(chart_.patch);
@@ -188,11 +188,10 @@ class DartSearch {
   // A corner at the vertex of the largest value of those that a dart may go to; -1 when there is none.
   template <class Value>
   int Best(const PatchPaths& paths, const Value& value) const {
-    const double reach = std::min(goal_.longest, goal_.most_length - total_length_);
     int best = -1;
     for (int h = 0; h < chart_.patch.HalfEdgeCount(); ++h) {
       const int v = chart_.patch.Vertex(h);
-      if (hopeless_[h / 3] || paths.OnBoundary(v) || !(paths.Distance(v) <= reach)) continue;
+      if (hopeless_[h / 3] || paths.OnBoundary(v) || !(paths.Distance(v) <= goal_.longest)) continue;
       if (best < 0 || value(v) > value(chart_.patch.Vertex(best))) best = h;
     }
     return best;
@@ -210,7 +209,7 @@ class DartSearch {
                             Best(paths, [&](int v) { return paths.Distance(v); })})
         if (std::find(tips.begin(), tips.end(), tip) == tips.end()) tips.push_back(tip);
     }
-    double best_gain = -1, best_length = 0;
+    double best_gain = -1;
     DartedChart best;
     for (int tip : tips) {
       const double length = paths.Distance(chart_.patch.Vertex(tip));
@@ -224,13 +223,11 @@ class DartSearch {
           (chart_.flat.l2_stretch - std::max(trial.flat.l2_stretch, goal_.l2_stretch)) / std::sqrt(length);
       if (best.count > 0 && gain <= best_gain) continue;
       best_gain = gain;
-      best_length = length;
       best = std::move(trial);
     }
     if (best.count == 0) return false;
     best.edges.insert(best.edges.begin(), chart_.edges.begin(), chart_.edges.end());
     best.count += chart_.count;
-    total_length_ += best_length;
     chart_ = std::move(best);
     plain_.reset();
     std::fill(useless_.begin(), useless_.end(), 0);
@@ -267,7 +264,6 @@ class DartSearch {
   const DartGoal& goal_;
   const std::function<void()>& poll_;
   DartedChart& chart_;
-  double total_length_ = 0;
   std::optional<Flattening> plain_;  // of the chart as it is now, without the finish
   std::vector<char> useless_;        // corners to which a dart into the chart as it is now doesn't help
   std::vector<char> hopeless_;       // faces
@@ -279,7 +275,8 @@ bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, 
   DartGoal mean = goal;
   mean.linf_stretch = std::numeric_limits<double>::infinity();
   DartedChart darted = chart;
-  darted.flat = FlatWithoutFinish(chart.patch, &chart.flat.uv, poll);
+  // From no start: from another the search would not end at the darts that a trial of the chart has shown.
+  darted.flat = FlatWithoutFinish(chart.patch, nullptr, poll);
   DartSearch(mean, poll, darted).Run();
   if (darted.count == 0) return false;
   darted.flat = FlatWithFinish(darted.patch, goal, poll);

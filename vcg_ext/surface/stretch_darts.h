@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <vector>
 
 #include "planar/flatten.h"
@@ -15,8 +14,6 @@ struct DartGoal {
   double l2_stretch = 1;    ///< of the chart at its own scale
   double linf_stretch = 1;  ///< the same
   double longest = 0;       ///< bound on a dart's length, model units
-  double most_length =
-      std::numeric_limits<double>::infinity();  ///< bound on the length of all darts together, model units
   int most_darts = 12;
   double unit =
       1;  ///< the length of dart for which the Linf stretch has to fall by kLinfPerUnit, model units
