@@ -61,19 +61,26 @@ class LineMaker {
     for (std::size_t s = 0; s < seam.sides.size(); ++s) {
       if (seam.sides[s].piece != placed_.piece->id) continue;
       const Point2 at = placed_.placement(point.at[s]), outward = placed_.Turned(point.outward[s]);
-      const Point2 along(-outward.y(), outward.x());
       const std::size_t first = lines_.size();
-      if (point.kind == NotchKind::kSingle) {
+      if (point.kind == NotchKind::kSingle)
         AddNotch(at, outward);
-      } else {
-        AddNotch(at - kBetweenSlits / 2 * along, outward);
-        AddNotch(at + kBetweenSlits / 2 * along, outward);
-      }
+      else
+        AddDoubleNotch(seam.id, static_cast<int>(s), at, outward);
       for (std::size_t i = first; i < lines_.size(); ++i) {
         lines_[i].seam = seam.id;
         lines_[i].side = static_cast<int>(s);
         lines_[i].match = point.number;
       }
+    }
+  }
+
+  // Both halves lie on the outline, also near its corners.
+  void AddDoubleNotch(int seam, int side, const Point2& at, const Point2& outward) {
+    for (const SideRun& run : placed_.sides) {
+      if (run.seam != seam || run.side != side) continue;
+      const double middle = NearestLength(run.points, at);
+      for (const double step : {-kBetweenSlits / 2, kBetweenSlits / 2})
+        AddNotch(AtLength(run.points, std::max(0.0, middle + step)).first, outward);
     }
   }
 
