@@ -48,7 +48,8 @@ inline std::string WrongInPiece(const Piece& piece, const SurfaceData& mesh) {
   std::string wrong;
   if (piece.loops.empty() || !Finite(OutlineOf(piece))) return "an outline is not there or not finite\n";
   if (!(piece.area > 0) || !std::isfinite(piece.area)) wrong += "its area is not above 0\n";
-  if (!(piece.model_area >= 0) || !std::isfinite(piece.model_area)) wrong += "its area on the model is not there\n";
+  if (!(piece.model_area >= 0) || !std::isfinite(piece.model_area))
+    wrong += "its area on the model is not there\n";
   if (OutlinesCross(OutlineOf(piece))) wrong += "the outline crosses itself\n";
   if (piece.cut.empty() || !Finite(piece.cut)) wrong += "no cut line, or not finite\n";
   for (const Tab& tab : piece.tabs)
@@ -79,7 +80,8 @@ inline std::string WrongInSeam(const Seam& seam, const Pattern& pattern) {
   }
   if (!std::isfinite(seam.length) || !std::isfinite(seam.ease)) wrong += "length or ease is not finite\n";
   for (const MatchPoint& match : seam.match_points)
-    if (match.at.size() != seam.sides.size() || !Finite({match.at, match.outward})) wrong += "match points are not finite, or not on every side\n";
+    if (match.at.size() != seam.sides.size() || !Finite({match.at, match.outward}))
+      wrong += "match points are not finite, or not on every side\n";
   return wrong;
 }
 
