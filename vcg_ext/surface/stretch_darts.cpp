@@ -170,9 +170,10 @@ class DartSearch {
         hopeless_(chart.patch.faces.size(), 0) {}
 
   void Run() {
-    constexpr int kMostFailures = 4;
+    // Trials with the finish take several times as long.
+    const int most_failures = HasFinish(goal_) ? 2 : 4;
     for (int failures = 0;
-         chart_.count < goal_.most_darts && failures < kMostFailures && !Reached(chart_.flat, goal_);) {
+         chart_.count < goal_.most_darts && failures < most_failures && !Reached(chart_.flat, goal_);) {
       PatchPaths paths(chart_.patch);
       paths.Run(paths.BoundaryVertices(), true);
       const std::vector<double> stretch = VertexStretch(chart_.patch, chart_.flat.uv);
