@@ -105,7 +105,7 @@ def test_notation(made):
 def test_seams_have_equal_sides(made):
     """By the SVG alone: the two sides of a seam are as long as each other, but for the ease."""
     _, material, _, files = made
-    text = (files['svg']).read_text()
+    text = files['svg'].read_text()
     sides = {}
     for path, seam, _ in re.findall(r'<path d="M([^"]*)"[^>]* data-seam="(\d+)" data-side="(\d+)"/>', text):
         points = np.array(re.findall(r'-?[\d.]+', path), float).reshape(-1, 2)

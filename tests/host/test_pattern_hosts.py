@@ -51,23 +51,23 @@ def test_meshlabserver(meshlab_2020, screen, tmp_path, model_file, expected, mod
         assert (tmp_path / f'pattern.{ending}').read_bytes() == content, f'another {ending}'
 
 
-def write_three_files(gui, model, folder):
-    """`folder`: as the GUI sees it."""
+def write_three_files(gui, model, folder, picture):
+    """`folder`: as the GUI sees it. Closes the GUI."""
     order = [p.get('name') for p in ElementTree.parse(EXAMPLE).getroot().find(f"filter[@name='{PATTERN}']")]
-    for ending in ENDINGS:
-        gui.apply(PATTERN, seconds=60, typed={order.index('size'): str(SIZE)},
-                  chosen={order.index('material'): MATERIALS.index(MODELS[model])},
-                  saved_as=(order.index('output_file'), f'{folder}/pattern.{ending}'))
+    try:
+        for ending in ENDINGS:
+            gui.apply(PATTERN, seconds=60, typed={order.index('size'): str(SIZE)},
+                      chosen={order.index('material'): MATERIALS.index(MODELS[model])},
+                      saved_as=(order.index('output_file'), f'{folder}/pattern.{ending}'))
+    finally:
+        gui.session.save_screen(picture)
+        gui.close()
 
 
 @pytest.mark.parametrize('model', MODELS)
 def test_gui_2020(screen, meshlab_2020, tmp_path, model_file, expected, screenshots, model):
     gui = MeshlabGui(screen, [meshlab_2020.bin / 'meshlab'], model_file(model))
-    try:
-        write_three_files(gui, model, tmp_path)
-    finally:
-        screen.save_screen(screenshots / f'2020 pattern of {model}.png')
-        gui.close()
+    write_three_files(gui, model, tmp_path, screenshots / f'2020 pattern of {model}.png')
     for ending, content in expected(model).items():
         assert (tmp_path / f'pattern.{ending}').read_bytes() == content, f'another {ending}'
 
@@ -91,11 +91,7 @@ def test_gui_2025(screen, forky, forky_home, model_file, expected, screenshots, 
     at_home = f'/{forky_home.relative_to(forky)}'
     gui = MeshlabGui(screen, inside(forky, 'meshlab'), f'{at_home}/{model}.ply',
                      env={'HOME': at_home, 'XDG_RUNTIME_DIR': at_home}, first_field=3)
-    try:
-        write_three_files(gui, model, at_home)
-    finally:
-        screen.save_screen(screenshots / f'2025 pattern of {model}.png')
-        gui.close()
+    write_three_files(gui, model, at_home, screenshots / f'2025 pattern of {model}.png')
     for ending, content in expected(model).items():
         file = forky_home / f'pattern.{ending}'
         assert file.read_bytes() == content, f'another {ending}'

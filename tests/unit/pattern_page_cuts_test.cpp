@@ -46,12 +46,6 @@ FlatCharts OneChart(SurfaceData mesh, const std::function<bool(double, double)>&
       mesh, [](const Point3&) { return 0; }, FromAbove);
 }
 
-Polyline PointsOf(const FlatChart& chart) {
-  Polyline points;
-  for (Eigen::Index v = 0; v < chart.uv.rows(); ++v) points.push_back(chart.uv.row(v).transpose());
-  return points;
-}
-
 double AreaOf(const FlatCharts& charts) {
   double area = 0;
   for (const FlatChart& chart : charts.charts) area += MeasureStretch(chart.mesh, chart.uv).UvArea();
@@ -118,9 +112,14 @@ void ExpectSound(const FlatCharts& charts) {
 
 void ExpectOnPages(const FlatCharts& charts, const FlatCharts& before) {
   ExpectSound(charts);
-  for (const FlatChart& chart : charts.charts) EXPECT_EQ(PagesFor(PointsOf(chart), kPage), 1);
+  for (const FlatChart& chart : charts.charts) EXPECT_EQ(PagesFor(chart, kPage), 1);
   EXPECT_NEAR(AreaOf(charts), AreaOf(before), 1e-6 * AreaOf(before));
   EXPECT_EQ(EulerOf(charts), EulerOf(before));
+}
+
+FlatCharts Cut(FlatCharts charts) {
+  CutToPages(kPage, {}, charts);
+  return charts;
 }
 
 TEST(PageCuts, PagesForTurnsPieces) {
@@ -147,8 +146,7 @@ TEST(PageCuts, ALongStripIsCutAcross) {
 TEST(PageCuts, AnLIsCutAcrossAnArm) {
   const FlatCharts before =
       OneChart(Scaled(shapes::Grid(25, 25), 250, 250), [](double x, double y) { return x < 80 || y < 80; });
-  FlatCharts charts = before;
-  CutToPages(kPage, {}, charts);
+  const FlatCharts charts = Cut(before);
   EXPECT_EQ(charts.charts.size(), 2u);
   EXPECT_LT(SeamLength(charts), 1.1 * 80);
   ExpectOnPages(charts, before);
@@ -156,8 +154,7 @@ TEST(PageCuts, AnLIsCutAcrossAnArm) {
 
 TEST(PageCuts, ADiskBecomesAsFewPartsAsPages) {
   const FlatCharts before = OneChart(Scaled(shapes::Disk(12), 400, 400));
-  FlatCharts charts = before;
-  CutToPages(kPage, {}, charts);
+  const FlatCharts charts = Cut(before);
   EXPECT_LE(charts.charts.size(), 6u);  // two by three pages
   EXPECT_LT(SeamLength(charts), 3 * 400);
   ExpectOnPages(charts, before);
@@ -165,8 +162,7 @@ TEST(PageCuts, ADiskBecomesAsFewPartsAsPages) {
 
 TEST(PageCuts, AHoleIsOpened) {
   const FlatCharts before = OneChart(Scaled(shapes::PlaneWithHole(24), 400, 400));
-  FlatCharts charts = before;
-  CutToPages(kPage, {}, charts);
+  const FlatCharts charts = Cut(before);
   EXPECT_LE(charts.charts.size(), 9u);
   ExpectOnPages(charts, before);
 }
@@ -176,8 +172,7 @@ TEST(PageCuts, AHoleWithCornersIsNoPlaceForSlivers) {
     return !(x > 100 && x < 300 && y > 100 && y < 300 && (x < 150 || y < 150));
   };
   const FlatCharts before = OneChart(Scaled(shapes::Grid(24, 24), 400, 400), keep);
-  FlatCharts charts = before;
-  CutToPages(kPage, {}, charts);
+  const FlatCharts charts = Cut(before);
   EXPECT_LE(charts.charts.size(), 9u);
   for (const FlatChart& chart : charts.charts)
     EXPECT_GT(MeasureStretch(chart.mesh, chart.uv).UvArea(), 0.02 * 400 * 400);
@@ -188,8 +183,7 @@ TEST(PageCuts, TheNeighboursEdgesArePartedToo) {
   const SurfaceData grid = Scaled(shapes::Grid(2, 2), 400, 400);
   const FlatCharts before = ChartsOf(
       grid, [](const Point3& p) { return p.x() < 200 ? 0 : 1; }, FromAbove);
-  FlatCharts charts = before;
-  CutToPages(kPage, {}, charts);
+  const FlatCharts charts = Cut(before);
   EXPECT_GT(charts.charts.size(), 5u);
   ExpectOnPages(charts, before);
 }
@@ -219,8 +213,7 @@ TEST(PageCuts, ATubeIsCutAcross) {
       if (chart.uv(v, 0) > 119 && chart.uv(w, 0) < 1 && std::abs(chart.uv(v, 1) - chart.uv(w, 1)) < 1)
         chart.model_vertex[v] = chart.model_vertex[w];
   ASSERT_EQ(EulerOf(before), 0);
-  FlatCharts charts = before;
-  CutToPages(kPage, {}, charts);
+  const FlatCharts charts = Cut(before);
   EXPECT_LE(charts.charts.size(), 4u);
   EXPECT_LT(SeamLength(charts), SeamLength(before) + 1.1 * 3 * 120);
   ExpectOnPages(charts, before);
@@ -236,8 +229,7 @@ TEST(PageCuts, OneTriangleIsEnough) {
   triangle.vertices = {{0, 0, 0}, {600, 0, 0}, {0, 500, 0}};
   triangle.faces = {{0, 1, 2}};
   const FlatCharts before = OneChart(triangle);
-  FlatCharts charts = before;
-  CutToPages(kPage, {}, charts);
+  const FlatCharts charts = Cut(before);
   EXPECT_LE(charts.charts.size(), 8u);
   ExpectOnPages(charts, before);
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/union_find.h"
+#include "pattern/half_edges.h"
 
 namespace dcharts {
 namespace {
@@ -16,13 +17,6 @@ namespace {
 struct NamedEdge {
   int chart = 0, start = 0, end = 0;
 };
-
-std::map<std::pair<int, int>, int> HalfEdges(const FlatChart& chart) {
-  std::map<std::pair<int, int>, int> half_edges;
-  for (int h = 0; h < 3 * static_cast<int>(chart.mesh.triangles.rows()); ++h)
-    half_edges[{StartOf(chart, h), EndOf(chart, h)}] = h;
-  return half_edges;
-}
 
 int AddBetween(int a, int b, double share, int model_vertex, FlatChart& chart) {
   const auto v = chart.uv.rows();
@@ -288,16 +282,6 @@ class Cutter {
 };
 
 }  // namespace
-
-std::vector<int> OppositeHalfEdges(const FlatChart& chart) {
-  const auto half_edges = HalfEdges(chart);
-  std::vector<int> opposite(3 * static_cast<size_t>(chart.mesh.triangles.rows()), -1);
-  for (const auto& [ends, h] : half_edges) {
-    const auto other = half_edges.find({ends.second, ends.first});
-    if (other != half_edges.end()) opposite[h] = other->second;
-  }
-  return opposite;
-}
 
 int LeavesAt(const FlatChart& chart, const std::vector<int>& opposite, const PlaneLine& line, int half_edge) {
   const auto is_left = [&](int v) { return line.Off(chart.uv.row(v).transpose()) >= 0; };

@@ -29,9 +29,6 @@ struct PlaneLine {
 std::vector<BoundaryCrossing> CrossingsOf(const FlatChart& chart, const std::vector<int>& boundary,
                                           const PlaneLine& line);
 
-/// Per half-edge the one on the other side of its edge; -1 at the boundary.
-std::vector<int> OppositeHalfEdges(const FlatChart& chart);
-
 /// The boundary half-edge where a line leaves the chart that comes in across another: by way of the triangles
 /// that it crosses, so also where rounding has it cross edges in another order. -1: nowhere.
 int LeavesAt(const FlatChart& chart, const std::vector<int>& opposite, const PlaneLine& line, int half_edge);

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <utility>
 #include <vector>
 
 #include "common/pi.h"
 #include "common/union_find.h"
+#include "pattern/half_edges.h"
 #include "pattern/outline.h"
 #include "pattern/segments.h"
 
@@ -33,15 +33,12 @@ struct FoldEdge {
 };
 
 std::vector<FoldEdge> FoldEdgesOf(const FlatChart& chart, double least_degrees) {
-  std::map<std::pair<int, int>, int> triangle_at;  // by directed edge
-  for (Eigen::Index t = 0; t < chart.mesh.triangles.rows(); ++t)
-    for (int k = 0; k < 3; ++k)
-      triangle_at[{chart.mesh.triangles(t, k), chart.mesh.triangles(t, (k + 1) % 3)}] = static_cast<int>(t);
+  const std::map<std::pair<int, int>, int> half_edges = HalfEdges(chart);
   std::vector<FoldEdge> edges;
-  for (const auto& [edge, t] : triangle_at) {
-    const auto across = triangle_at.find({edge.second, edge.first});
-    if (edge.first > edge.second || across == triangle_at.end()) continue;
-    const Eigen::Vector3d m = NormalOf(chart, t), n = NormalOf(chart, across->second);
+  for (const auto& [edge, h] : half_edges) {
+    const auto across = half_edges.find({edge.second, edge.first});
+    if (edge.first > edge.second || across == half_edges.end()) continue;
+    const Eigen::Vector3d m = NormalOf(chart, h / 3), n = NormalOf(chart, across->second / 3);
     if (m.isZero() || n.isZero()) continue;
     const Eigen::Vector3d along =
         (chart.mesh.positions.row(edge.second) - chart.mesh.positions.row(edge.first)).transpose();
@@ -57,11 +54,9 @@ std::vector<FoldEdge> FoldEdgesOf(const FlatChart& chart, double least_degrees) 
 void DropLooseEdges(const FlatChart& chart, double least_degrees, std::vector<FoldEdge>& edges) {
   constexpr double kSharp = 2, kSpeck = 12;  // of the least angle; mm
   std::vector<char> at_outline(chart.uv.rows(), 0);
-  std::set<std::pair<int, int>> half_edges;
-  for (int h = 0; h < 3 * static_cast<int>(chart.mesh.triangles.rows()); ++h)
-    half_edges.insert({StartOf(chart, h), EndOf(chart, h)});
-  for (const auto& [a, b] : half_edges)
-    if (half_edges.count({b, a}) == 0) at_outline[a] = at_outline[b] = 1;
+  const std::vector<int> opposite = OppositeHalfEdges(chart);
+  for (int h = 0; h < static_cast<int>(opposite.size()); ++h)
+    if (opposite[h] < 0) at_outline[StartOf(chart, h)] = at_outline[EndOf(chart, h)] = 1;
   UnionFind joined(static_cast<int>(chart.uv.rows()));
   for (const FoldEdge& edge : edges) joined.Join(edge.a, edge.b);
   struct Crease {

@@ -11,31 +11,15 @@
 #include "common/errors.h"
 #include "common/pi.h"
 #include "pattern/chart_cut.h"
+#include "pattern/half_edges.h"
 #include "pattern/seam_graph.h"
 #include "pattern/segments.h"
+#include "planar/convex_hull.h"
 
 namespace dcharts {
 namespace {
 
 constexpr int kTurns = 36;  // of half a turn
-
-Polyline ConvexHull(Polyline points) {
-  const auto before = [](const Point2& a, const Point2& b) {
-    return std::make_pair(a.x(), a.y()) < std::make_pair(b.x(), b.y());
-  };
-  std::sort(points.begin(), points.end(), before);
-  Polyline hull;
-  for (const bool upper : {false, true}) {
-    const size_t base = hull.size();
-    for (const Point2& p : points) {
-      while (hull.size() >= base + 2 && Orient(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
-      hull.push_back(p);
-    }
-    if (!hull.empty()) hull.pop_back();
-    if (!upper) std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
 
 /// What points take when they are turned by a step.
 struct Turned {
@@ -124,12 +108,6 @@ class CutFinder {
     least_width_ = std::min(kLeastWidth, Width(AllTurns(Points(), page)) / 2);
   }
 
-  Polyline Points() const {
-    Polyline points;
-    for (const Polyline& loop : loops_) points.insert(points.end(), loop.begin(), loop.end());
-    return points;
-  }
-
   struct Cut {
     PlaneLine line{};
     BoundaryCrossing from{}, to{};
@@ -169,6 +147,12 @@ class CutFinder {
   }
 
  private:
+  Polyline Points() const {
+    Polyline points;
+    for (const Polyline& loop : loops_) points.insert(points.end(), loop.begin(), loop.end());
+    return points;
+  }
+
   // The direction in which the points reach farthest, radians.
   double LongSide(const Polyline& points) const {
     const std::vector<Turned> turns = AllTurns(points, page_);
@@ -264,13 +248,17 @@ class CutFinder {
 
 int PagesFor(const Polyline& points, const Point2& page) { return FewestPages(AllTurns(points, page)); }
 
+int PagesFor(const FlatChart& chart, const Point2& page) {
+  Polyline points;
+  for (Eigen::Index v = 0; v < chart.uv.rows(); ++v) points.push_back(chart.uv.row(v).transpose());
+  return PagesFor(points, page);
+}
+
 int CutToPages(const Point2& page, const std::function<void()>& poll, FlatCharts& charts) {
   constexpr int kMostPages = 200, kMostCuts = 500;
   double pages = 0;
   for (const FlatChart& chart : charts.charts) {
-    Polyline points;
-    for (Eigen::Index v = 0; v < chart.uv.rows(); ++v) points.push_back(chart.uv.row(v).transpose());
-    const int own = PagesFor(points, page);
+    const int own = PagesFor(chart, page);
     if (own > 1) pages += own;
   }
   if (pages > kMostPages)
@@ -278,11 +266,9 @@ int CutToPages(const Point2& page, const std::function<void()>& poll, FlatCharts
                 ". Choose a larger page or 'Tile', or a smaller size.");
   int cuts = 0;
   for (int c = 0; c < static_cast<int>(charts.charts.size()); ++c)
-    while (cuts < kMostCuts) {
+    while (cuts < kMostCuts && PagesFor(charts.charts[c], page) > 1) {
       if (poll) poll();
-      const CutFinder finder(charts.charts[c], SeamsOf(charts).places[c], page);
-      if (PagesFor(finder.Points(), page) <= 1) break;
-      const CutFinder::Cut cut = finder.Best();
+      const CutFinder::Cut cut = CutFinder(charts.charts[c], SeamsOf(charts).places[c], page).Best();
       if (!std::isfinite(cut.cost)) break;
       CutAlong(cut.line, cut.from, cut.to, c, charts);
       ++cuts;

@@ -2,42 +2,19 @@
 #include "planar/upright_box.h"
 
 #include "common/pi.h"
+#include "planar/convex_hull.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace dcharts {
-namespace {
-
-// Counterclockwise hull, by Andrew's monotone chain.
-std::vector<Eigen::Vector2d> ConvexHull(const Points2& points) {
-  std::vector<Eigen::Vector2d> p;
-  for (Eigen::Index k = 0; k < points.rows(); ++k) p.push_back(points.row(k));
-  auto less = [](const auto& a, const auto& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); };
-  std::sort(p.begin(), p.end(), less);
-  std::vector<Eigen::Vector2d> hull;
-  for (int pass = 0; pass < 2; ++pass) {
-    const size_t base = hull.size();
-    for (const Eigen::Vector2d& q : p) {
-      while (hull.size() >= base + 2) {
-        const Eigen::Vector2d a = hull.back() - hull[hull.size() - 2], b = q - hull.back();
-        if (a.x() * b.y() - a.y() * b.x() > 0) break;
-        hull.pop_back();
-      }
-      hull.push_back(q);
-    }
-    hull.pop_back();
-    std::reverse(p.begin(), p.end());
-  }
-  return hull;
-}
-
-}  // namespace
-
 double UprightAngle(const Points2& points) {
-  const std::vector<Eigen::Vector2d> hull = ConvexHull(points);
+  std::vector<Eigen::Vector2d> all;
+  for (Eigen::Index k = 0; k < points.rows(); ++k) all.push_back(points.row(k));
+  const std::vector<Eigen::Vector2d> hull = ConvexHull(std::move(all));
   double best_angle = 0, best_area = std::numeric_limits<double>::infinity();
   for (size_t k = 0; k < hull.size(); ++k) {
     const Eigen::Vector2d edge = hull[(k + 1) % hull.size()] - hull[k];

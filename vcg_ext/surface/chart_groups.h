@@ -79,20 +79,27 @@ struct ChartGroups {
     return [this] { progress.Poll(); };
   }
 
+  double AreaOf(const std::vector<int>& some) const {
+    double area = 0;
+    for (int part : some) area += parts.Area(part);
+    return area;
+  }
+
   /// A chart of some parts, not among the charts yet.
   Chart Made(std::vector<int> of_parts) const {
     Chart chart;
+    chart.area = AreaOf(of_parts);
     chart.parts = std::move(of_parts);
-    for (int part : chart.parts) chart.area += parts.Area(part);
     return chart;
   }
 
-  std::vector<int> PartsOfBoth(int a, int b) const {
-    const std::vector<int>&p = charts[a].parts, &q = charts[b].parts;
-    std::vector<int> both(p.size() + q.size());
-    std::merge(p.begin(), p.end(), q.begin(), q.end(), both.begin());
+  /// Sorted lists of parts as one.
+  static std::vector<int> Joined(const std::vector<int>& some, const std::vector<int>& others) {
+    std::vector<int> both(some.size() + others.size());
+    std::merge(some.begin(), some.end(), others.begin(), others.end(), both.begin());
     return both;
   }
+  std::vector<int> PartsOfBoth(int a, int b) const { return Joined(charts[a].parts, charts[b].parts); }
 
   /// The trial of some parts together, each made once. One that was refused because of a bound is made again
   /// for a larger one.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
-#include <iterator>
 #include <map>
 #include <utility>
 #include <vector>
@@ -57,15 +55,15 @@ class ChartDissolver {
     for (int p : group)
       for (const auto& [q, length] : groups_.parts.Borders(p))
         if (owner_[q] != chart_) borders[owner_[q]] += length;
-    const double own = groups_.Made(group).area;
+    const double own = groups_.AreaOf(group);
     double least = ChartGroups<MeshType>::kNoBound;
     int home = -1;
     for (const auto& [b, length] : borders) {
-      const std::vector<int>&now = PartsOf(b), both = Joined(now, group);
+      const std::vector<int>&now = PartsOf(b), both = ChartGroups<MeshType>::Joined(now, group);
       if (!groups_.MayStandTogether(both)) continue;
       const ChartTrial& trial = groups_.Trial(both);
       if (!trial.flat) continue;
-      const double area = groups_.Made(now).area;
+      const double area = groups_.AreaOf(now);
       const ChartTrial& before = groups_.Trial(now);
       const double cost = trial.energy * (area + own) - before.energy * area -
                           groups_.SeamCost(length - groups_.CutLength(trial) + groups_.CutLength(before));
@@ -74,15 +72,9 @@ class ChartDissolver {
       home = b;
     }
     if (home < 0) return false;
-    grown_[home] = Joined(PartsOf(home), group);
+    grown_[home] = ChartGroups<MeshType>::Joined(PartsOf(home), group);
     for (int p : group) owner_[p] = home;
     return true;
-  }
-
-  static std::vector<int> Joined(const std::vector<int>& some, const std::vector<int>& others) {
-    std::vector<int> both;
-    std::merge(some.begin(), some.end(), others.begin(), others.end(), std::back_inserter(both));
-    return both;
   }
 
   const std::vector<int>& PartsOf(int c) const {

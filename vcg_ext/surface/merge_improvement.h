@@ -147,17 +147,16 @@ class MergeImprover {
     if (!IsMovable(group, b, owner)) return false;
     const int a = owner[group.front()];
     const double saved = SeamSaved(group, b, owner);
-    if (saved < -kMostLonger || groups_.charts[a].area - groups_.Made(group).area < groups_.TinyArea())
+    if (saved < -kMostLonger || groups_.charts[a].area - groups_.AreaOf(group) < groups_.TinyArea())
       return false;
-    const std::vector<int> rest = Without(groups_.charts[a].parts, group), &to = groups_.charts[b].parts;
-    std::vector<int> grown;
-    std::merge(to.begin(), to.end(), group.begin(), group.end(), std::back_inserter(grown));
+    const std::vector<int> rest = Without(groups_.charts[a].parts, group),
+                           grown = ChartGroups<MeshType>::Joined(groups_.charts[b].parts, group);
     if (!groups_.HangTogether(rest) || !groups_.MayStandTogether(grown)) return false;
     const double before = groups_.Energy(a) + groups_.Energy(b) +
                           groups_.SeamCost(groups_.CutLength(groups_.charts[a].trial) +
                                            groups_.CutLength(groups_.charts[b].trial));
     const auto cost = [&](const ChartTrial& trial, const std::vector<int>& some) {
-      return trial.energy * groups_.Made(some).area + groups_.SeamCost(groups_.CutLength(trial));
+      return trial.energy * groups_.AreaOf(some) + groups_.SeamCost(groups_.CutLength(trial));
     };
     const ChartTrial& more = groups_.Trial(grown);
     double after = cost(more, grown) - groups_.SeamCost(saved);
