@@ -119,7 +119,7 @@ Outcome RunCase(const RandomCase& what) {
   if (!what.params.output_file.empty()) {
     std::error_code error;
     std::filesystem::remove(what.params.output_file, error);
-    if (std::filesystem::exists(what.params.output_file + ".part")) outcome.wrong += "half a file is left\n";
+    if (std::filesystem::exists(".dcharts-0.part")) outcome.wrong += "half a file is left\n";
   }
   return outcome;
 }

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// What is on a drawing, and that the files hold it. The files are read back by other programs in tests/host.
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -13,7 +10,6 @@
 #include "pattern/drawing/label_space.h"
 #include "pattern/drawing/number_text.h"
 #include "pattern/drawing/pdf_writer.h"
-#include "pattern/drawing/save_file.h"
 #include "pattern/drawing/sheet.h"
 #include "pattern/drawing/svg_writer.h"
 #include "pattern/drawing/text_box.h"
@@ -236,33 +232,6 @@ TEST(PatternFiles, APieceOverThousandsOfPagesIsRefused) {
     else
       EXPECT_THROW(TilingsOf(draft), Error);
   }
-}
-
-TEST(PatternFiles, AFileIsWrittenWholeOrNotAtAll) {
-  namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / "dcharts_save_file_test";
-  fs::remove_all(folder);
-  fs::create_directory(folder);
-  const std::string path = (folder / "a.svg").string();
-  SaveFile(path, "first");
-  SaveFile(path, "second");
-  std::ifstream in(path);
-  std::stringstream content;
-  content << in.rdbuf();
-  EXPECT_EQ(content.str(), "second");
-  fs::create_directory(folder / "b.svg");
-  for (const fs::path& bad : {folder / "b.svg", folder / "none" / "c.svg"}) {
-    try {
-      SaveFile(bad.string(), "text");
-      ADD_FAILURE() << bad;
-    } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find(bad.string()), std::string::npos);
-    }
-  }
-  int files = 0;
-  for (const auto& entry : fs::directory_iterator(folder)) files += entry.is_regular_file();
-  EXPECT_EQ(files, 1) << "something was left behind";
-  fs::remove_all(folder);
 }
 
 }  // namespace

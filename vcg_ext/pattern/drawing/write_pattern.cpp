@@ -25,6 +25,15 @@ std::string EndingOf(const std::string& path) {
   return ending;
 }
 
+// The file's name without its ending. Where a line ends, or an SVG and a DXF would be no such file any more,
+// is a space.
+std::string TitleOf(const std::string& path) {
+  std::string title = std::filesystem::u8path(path).stem().u8string();
+  for (char& c : title)
+    if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
+  return title;
+}
+
 // Pieces, and to the right of them how to put them together.
 Drawing WholeSheet(Draft& draft) {
   const Point2 page(210, 297);
@@ -57,21 +66,17 @@ Drawing SheetWithTable(Draft& draft) {
 }  // namespace
 
 void CheckOutputFile(const std::string& path) {
-  namespace fs = std::filesystem;
   const std::string ending = EndingOf(path);
   if (ending != ".svg" && ending != ".pdf" && ending != ".dxf")
     throw Error("output_file must end in .svg, .pdf or .dxf; you gave '" + path + "'.");
-  const fs::path folder = fs::u8path(path).parent_path();
-  std::error_code error;
-  if (!folder.empty() && !fs::is_directory(folder, error))
-    throw Error("output_file is in a folder that does not exist: '" + folder.u8string() + "'.");
+  CheckCanBeSaved(path);
 }
 
 std::vector<std::string> WritePattern(const Pattern& pattern, const SurfaceData& mesh, const Params& params) {
   const std::string& path = params.output_file;
   CheckOutputFile(path);
   const std::string ending = EndingOf(path);
-  Draft draft{pattern, mesh, std::filesystem::u8path(path).stem().u8string(), params.print_texture};
+  Draft draft{pattern, mesh, TitleOf(path), params.print_texture};
   if (ending == ".pdf")
     SaveFile(path, PdfFile(draft.title, PdfPages(draft)));
   else if (ending == ".svg")

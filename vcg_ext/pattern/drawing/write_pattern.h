@@ -9,7 +9,8 @@
 
 namespace dcharts {
 
-/// Throws Error with a sentence when the path's ending is none of .svg, .pdf and .dxf (in any case).
+/// Throws Error with a sentence when the path's ending is none of .svg, .pdf and .dxf (in any case), or it
+/// can be seen that no such file can be written.
 void CheckOutputFile(const std::string& path);
 
 /// Draws the pattern and writes it to the file, in the format of its ending; a relative path is relative to
