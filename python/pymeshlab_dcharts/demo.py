@@ -4,6 +4,7 @@
 usage: python -m pymeshlab_dcharts.demo MESH OUTDIR        (needs numpy and Pillow)
 """
 
+import contextlib
 import importlib.metadata
 import json
 import math
@@ -12,6 +13,7 @@ import pathlib
 import platform
 import re
 import sys
+import tempfile
 import time
 
 import numpy as np
@@ -107,10 +109,8 @@ def plain(value):
     return value if not isinstance(value, float) or math.isfinite(value) else str(value)
 
 
-def run(mesh_path, folder):
-    """Writes all files to `folder` and returns the contents of report.json."""
-    mesh_path, folder = pathlib.Path(mesh_path), pathlib.Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
+def write_all(mesh_path, folder):
+    """Writes all files to `folder` and returns the contents of report.json and a title."""
     watch = Stopwatch()
     ms = pymeshlab.MeshSet()
     ms.load_new_mesh(str(mesh_path))
@@ -154,6 +154,25 @@ def run(mesh_path, folder):
     }
     (folder / "report.json").write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
     return report, title
+
+
+def run(mesh_path, folder):
+    """Writes all files to `folder`, or none and what is there stays. Returns the contents of report.json and a title."""
+    mesh_path, folder = pathlib.Path(mesh_path), pathlib.Path(folder)
+    missing = [f for f in (folder, *folder.parents) if not f.exists()]
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        # MeshLab does not say when a file was cut off by a full disk, but the pictures after it do.
+        with tempfile.TemporaryDirectory(prefix=".new-", dir=folder) as aside:
+            result = write_all(mesh_path, pathlib.Path(aside))
+            for path in sorted(pathlib.Path(aside).iterdir(), key=lambda p: p.name == "report.json"):
+                path.replace(folder / path.name)
+        return result
+    except BaseException:
+        for made in missing:
+            with contextlib.suppress(OSError):  # not there, or not empty
+                made.rmdir()
+        raise
 
 
 def main(arguments):

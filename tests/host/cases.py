@@ -6,6 +6,7 @@ checked against."""
 import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / 'examples'
 SHARED_MESHES = ROOT.parent / 'shared' / 'meshes'
 
 _SEGMENT = ('chart_count', 'max_fitting_error', 'fitting_weight', 'compactness_weight', 'straightness_weight',

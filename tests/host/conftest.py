@@ -85,3 +85,17 @@ def large_plush(plush, tmp_path_factory):
     file = tmp_path_factory.mktemp('large') / 'plush.ply'
     ms.save_current_mesh(str(file))
     return file
+
+
+@pytest.fixture
+def server(meshlab_2020, screen, tmp_path):
+    """A function that runs meshlabserver and returns (run, output file or None)."""
+
+    def run(script, mesh=None):
+        out = tmp_path / 'out.ply'
+        out.unlink(missing_ok=True)
+        arguments = (['-i', mesh] if mesh else []) + ['-o', out, '-m', 'fq', 'fc', 'wt', '-s', script]
+        result = meshlab_2020.server(screen, *arguments, folder=tmp_path)
+        return result, (out if out.exists() else None)
+
+    return run

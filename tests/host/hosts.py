@@ -6,11 +6,12 @@ import platform
 import shutil
 import subprocess
 
-from cases import ROOT
+from cases import ROOT, is_sentence
 
 BUILD = pathlib.Path(os.environ.get('DCHARTS_BUILD', ROOT / 'build'))
 CACHE = pathlib.Path(os.environ.get('DCHARTS_CACHE')
                      or pathlib.Path(os.environ.get('XDG_CACHE_HOME') or pathlib.Path.home() / '.cache') / 'dcharts')
+REFUSED = 255  # meshlabserver's exit code for a filter that says no; 134 would be an abort
 
 
 class NotHere(Exception):
@@ -81,3 +82,11 @@ class Meshlab2020:
         return subprocess.run([str(self.bin / 'meshlabserver'), *map(str, arguments)], env=session.env, cwd=folder,
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                               errors='replace', timeout=600)
+
+
+def refused(run, out):
+    """meshlabserver's run was refused with a sentence and wrote nothing."""
+    assert run.returncode == REFUSED, f'exit code {run.returncode}:\n{run.stdout[-2000:]}'
+    assert out is None
+    said = [line for line in run.stdout.splitlines() if 'LOG' in line or is_sentence(line)]
+    assert any(is_sentence(line) for line in said), run.stdout[-2000:]

@@ -2,7 +2,7 @@
 """MeshLab's filter scripts."""
 import xml.etree.ElementTree as ElementTree
 
-from cases import FILTERS
+from cases import EXAMPLES, FILTERS
 
 _READ = {'RichInt': int, 'RichFloat': float, 'RichBool': lambda text: text == 'true', 'RichEnum': int, 'RichSaveFile': str}
 
@@ -33,3 +33,17 @@ def write_script(path, name, example, **changes):
     assert len(root) == 1 and not changes, f'{name} {changes} is not in {example}'
     path.write_text('<!DOCTYPE FilterScript>\n' + ElementTree.tostring(root, encoding='unicode'))
     return path
+
+
+def example_of(name):
+    """The shipped script that has this filter."""
+    return EXAMPLES / {'D-Charts: Texture Atlas': 'texture_atlas.mlx', 'D-Charts: Pattern': 'pattern.mlx'}.get(name, 'stages.mlx')
+
+
+def one_filter(folder, name, **changes):
+    """Writes a script of one filter, with some values other than the shipped ones."""
+    path = folder / 'one.mlx'
+    if not FILTERS[name][1]:
+        path.write_text(f'<!DOCTYPE FilterScript>\n<FilterScript><filter name="{name}"/></FilterScript>')
+        return path
+    return write_script(path, name, example_of(name), **changes)

@@ -6,43 +6,15 @@ import numpy as np
 import pytest
 
 from atlas_check import ply_layers
-from cases import FILTERS, OUT_OF_RANGE, REFUSED_MESHES, ROOT, is_sentence, shipped_meshes, write_ply
-from mlx import read_script, write_script
+from cases import EXAMPLES, FILTERS, OUT_OF_RANGE, REFUSED_MESHES, shipped_meshes, write_ply
+from hosts import refused
+from mlx import one_filter, read_script
 
 pymeshlab = pytest.importorskip('pymeshlab')
 pytest.importorskip('pymeshlab_dcharts')
 
-EXAMPLES = ROOT / 'examples'
 SCRIPTS = ('texture_atlas.mlx', 'stages.mlx', 'paper.mlx')
 MESHES = shipped_meshes()
-REFUSED = 255  # meshlabserver's exit code for a filter that says no; 134 would be an abort
-
-
-def example_of(name):
-    """The shipped script that has this filter."""
-    return EXAMPLES / {'D-Charts: Texture Atlas': 'texture_atlas.mlx', 'D-Charts: Pattern': 'pattern.mlx'}.get(name, 'stages.mlx')
-
-
-def one_filter(folder, name, **changes):
-    path = folder / 'one.mlx'
-    if not FILTERS[name][1]:
-        path.write_text(f'<!DOCTYPE FilterScript>\n<FilterScript><filter name="{name}"/></FilterScript>')
-        return path
-    return write_script(path, name, example_of(name), **changes)
-
-
-@pytest.fixture
-def server(meshlab_2020, screen, tmp_path):
-    """A function that runs meshlabserver and returns (run, output file or None)."""
-
-    def run(script, mesh=None):
-        out = tmp_path / 'out.ply'
-        out.unlink(missing_ok=True)
-        arguments = (['-i', mesh] if mesh else []) + ['-o', out, '-m', 'fq', 'fc', 'wt', '-s', script]
-        result = meshlab_2020.server(screen, *arguments, folder=tmp_path)
-        return result, (out if out.exists() else None)
-
-    return run
 
 
 def test_plugin_is_found(meshlab_2020):
@@ -93,14 +65,6 @@ def test_log_has_the_figures(server, plush):
     for figure in ('charts', 'l2_stretch', 'linf_stretch', 'l2_shear', 'seam_length', 'flipped_faces',
                    'overlapping_faces', 'packing_efficiency', 'seconds'):
         assert re.search(rf'\b{figure}\b\W+[0-9]', run.stdout), f'no {figure} in the log:\n{run.stdout[-2000:]}'
-
-
-def refused(run, out):
-    """The run was refused with a sentence and wrote nothing."""
-    assert run.returncode == REFUSED, f'exit code {run.returncode}:\n{run.stdout[-2000:]}'
-    assert out is None
-    said = [line for line in run.stdout.splitlines() if 'LOG' in line or is_sentence(line)]
-    assert any(is_sentence(line) for line in said), run.stdout[-2000:]
 
 
 @pytest.mark.parametrize('name', FILTERS)
