@@ -2,7 +2,7 @@
 
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(Boost REQUIRED) # headers only
-find_package(OpenMP COMPONENTS CXX)
+find_package(Threads REQUIRED)
 find_package(PNG REQUIRED)
 
 # libharu writes the pattern's PDF; it has no package file for CMake.

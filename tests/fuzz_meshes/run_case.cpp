@@ -3,14 +3,11 @@
 
 #include <filesystem>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 #include "check_result.h"
 #include "dcharts.h"
 #include "pattern/drawing/write_pattern.h"
 #include "runner.h"
+#include "thread_count.h"
 
 namespace dcharts::fuzz {
 namespace {
@@ -48,14 +45,8 @@ std::string WrongStageByStage(const RandomCase& what, const SurfaceChange& atlas
 }
 
 std::string WrongOnOneThread(const RandomCase& what, const SurfaceChange& change) {
-#ifdef _OPENMP
-  const int threads = omp_get_max_threads();
-  omp_set_num_threads(1);
+  const test::Threads threads(1);
   const SurfaceChange again = Run(what.filter->id, what.mesh, what.params);
-  omp_set_num_threads(threads);
-#else
-  const SurfaceChange again = Run(what.filter->id, what.mesh, what.params);
-#endif
   return SameBytes(change, again) ? "" : "one thread gives other bytes\n";
 }
 

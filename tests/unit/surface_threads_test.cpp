@@ -2,28 +2,17 @@
 /// The same bytes whatever the number of threads.
 #include "dcharts.h"
 
-#ifdef _OPENMP
-#include <omp.h>
-
+#include <atomic>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "common/parallel.h"
 #include "shapes.h"
+#include "thread_count.h"
 
 namespace dcharts {
 namespace {
-
-/// Sets the number of threads and puts it back.
-class Threads {
- public:
-  explicit Threads(int count) : before_(omp_get_max_threads()) { omp_set_num_threads(count); }
-  ~Threads() { omp_set_num_threads(before_); }
-
- private:
-  int before_;
-};
 
 TEST(Threads, AnyNumberGivesTheSameBytes) {
   for (const SurfaceData& mesh : {shapes::Plush(32), shapes::Torus(14), shapes::CadPart(24)}) {
@@ -31,7 +20,7 @@ TEST(Threads, AnyNumberGivesTheSameBytes) {
     params.chart_count = 14;
     std::vector<SurfaceChange> results;
     for (int count : {1, 2, 8}) {
-      const Threads threads(count);
+      const test::Threads threads(count);
       Progress progress;
       results.push_back(TextureAtlas(mesh, params, progress));
     }
@@ -45,9 +34,20 @@ TEST(Threads, AnyNumberGivesTheSameBytes) {
   }
 }
 
+TEST(Threads, AreAsManyAsWanted) {
+  for (int count : {1, 2, 8}) {
+    const test::Threads threads(count);
+    EXPECT_EQ(ThreadCount(), count);
+    std::atomic<int> helpers{0};
+    OnThreads(count - 1, [&](bool calls) { helpers += calls ? 0 : 1; });
+    EXPECT_EQ(helpers, count - 1);
+  }
+  EXPECT_GE(ThreadCount(), 1);
+}
+
 TEST(Threads, EveryItemIsDoneOnce) {
   for (int count : {1, 2, 8}) {
-    const Threads threads(count);
+    const test::Threads threads(count);
     std::vector<int> done(1000, 0);
     Progress progress;
     ParallelFor(1000, progress, [&](int k, const auto& poll) {
@@ -61,7 +61,7 @@ TEST(Threads, EveryItemIsDoneOnce) {
 
 TEST(Threads, AnErrorStopsAllAndComesOut) {
   for (int count : {1, 2, 8}) {
-    const Threads threads(count);
+    const test::Threads threads(count);
     Progress progress;
     try {
       ParallelFor(1000, progress, [](int k, const auto&) {
@@ -79,7 +79,7 @@ TEST(Threads, AnErrorStopsAllAndComesOut) {
 // Only the calling thread asks; with others at work it may get few items, even none.
 TEST(Threads, CancellingStopsAll) {
   for (int count : {1, 2, 8}) {
-    const Threads threads(count);
+    const test::Threads threads(count);
     int calls = 0;
     bool cancelled = false;
     Progress progress([&](int, const char*) { return ++calls < 5; });
@@ -100,4 +100,3 @@ TEST(Threads, CancellingStopsAll) {
 
 }  // namespace
 }  // namespace dcharts
-#endif

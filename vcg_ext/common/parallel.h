@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <exception>
@@ -8,16 +9,13 @@
 #include <mutex>
 #include <thread>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 #include "common/errors.h"
 #include "common/progress.h"
+#include "common/threads.h"
 
 namespace dcharts {
 
-/// Calls work(k, poll) for k = 0..count-1, on several threads where OpenMP is there; each call must write
+/// Calls work(k, poll) for k = 0..count-1, on ThreadCount() threads; each call must write
 /// only what is its own, so that the result doesn't depend on the number of threads. `poll` is for the work
 /// to call now and then: it asks the progress (on the calling thread) whether to go on. A stage may have any
 /// number of such loops: each takes two thirds of what is left of the stage's progress. An exception stops
@@ -53,12 +51,7 @@ void ParallelFor(int count, Progress& progress, const Work& work) {
       stop = true;
     }
   };
-#ifdef _OPENMP
-#pragma omp parallel
-  work_until_empty(omp_get_thread_num() == 0);
-#else
-  work_until_empty(true);
-#endif
+  OnThreads(std::min(ThreadCount(), count) - 1, work_until_empty);
   if (failure) std::rethrow_exception(failure);
 }
 
