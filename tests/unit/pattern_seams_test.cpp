@@ -10,6 +10,7 @@
 #include "pattern/equal_outlines.h"
 #include "pattern/equal_seams.h"
 #include "pattern/match_points.h"
+#include "pattern_checks.h"
 #include "pattern_fixture.h"
 #include "planar/flatten.h"
 #include "shapes.h"
@@ -251,6 +252,48 @@ TEST(PatternEqualOutlines, ANeedleIsNotTurnedOver) {
     EqualizeOutlines(1, pattern);
     for (const Piece& piece : pattern.pieces)
       EXPECT_TRUE(piece.area > 0 || !was_sound[piece.id]) << trial << " " << piece.name << " " << piece.area;
+  }
+}
+
+// Two points of an hourglass are at the same place; the pieces beside it want both to move inwards.
+TEST(PatternEqualOutlines, AnOutlineThatTouchesItselfDoesNotCrossItself) {
+  const auto piece_of = [](int id, const Polyline& points, const std::vector<int>& seams) {
+    Piece piece;
+    piece.id = id;
+    OutlineLoop loop;
+    for (size_t k = 0; k < points.size(); ++k) {
+      OutlinePoint point;
+      point.at = points[k];
+      point.seam = seams[k];
+      loop.push_back(point);
+    }
+    piece.loops = {loop};
+    return piece;
+  };
+  Pattern pattern;
+  pattern.pieces = {
+      piece_of(0, {{0, 0}, {10, 0}, {5, 5}, {10, 10}, {0, 10}, {5, 5}}, {2, 0, 0, 3, 1, 1}),
+      piece_of(1, {{10, 0}, {20, 5}, {10, 10}, {4, 5}}, {4, 5, 0, 0}),
+      piece_of(2, {{0, 0}, {6, 5}, {0, 10}, {-10, 5}}, {1, 1, 6, 7}),
+  };
+  const auto seam_of = [](int id, const std::vector<SeamSide>& sides) {
+    Seam seam;
+    seam.id = id;
+    seam.sides = sides;
+    return seam;
+  };
+  pattern.seams = {seam_of(0, {{0, 0, 1, 2, false, 0}, {1, 0, 2, 2, true, 0}}),
+                   seam_of(1, {{0, 0, 4, 2, false, 0}, {2, 0, 0, 2, true, 0}}),
+                   seam_of(2, {{0, 0, 0, 1, false, 0}}),
+                   seam_of(3, {{0, 0, 3, 1, false, 0}}),
+                   seam_of(4, {{1, 0, 0, 1, false, 0}}),
+                   seam_of(5, {{1, 0, 1, 1, false, 0}}),
+                   seam_of(6, {{2, 0, 2, 1, false, 0}}),
+                   seam_of(7, {{2, 0, 3, 1, false, 0}})};
+  EqualizeOutlines(2, pattern);
+  for (const Piece& piece : pattern.pieces) {
+    EXPECT_FALSE(test::OutlinesCross(OutlineOf(piece))) << piece.id;
+    EXPECT_GT(piece.area, 0);
   }
 }
 

@@ -15,6 +15,17 @@
 namespace dcharts {
 namespace {
 
+// Whether two segments cross in a point inside both, by more than rounding.
+bool PassThrough(const LineSegment& s, const LineSegment& t) {
+  constexpr double kRounding = 1e-7;  // mm
+  const auto apart = [](const LineSegment& line, const LineSegment& ends) {
+    const double least = kRounding * (line.b - line.a).norm();
+    const double p = Orient(line.a, line.b, ends.a), q = Orient(line.a, line.b, ends.b);
+    return (p > least && q < -least) || (p < -least && q > least);
+  };
+  return apart(s, t) && apart(t, s);
+}
+
 /// The corners of one piece, and its edges with the lengths they are to have.
 class OutlineFit {
  public:
@@ -35,12 +46,12 @@ class OutlineFit {
       if (!Step(at)) break;
     double shift = 0;
     for (size_t v = 0; v < at.size(); ++v) shift = std::max(shift, (at[v] - start_[v]).norm());
-    const bool crossed_before = Crosses(start_);
+    const bool touches = AnyCross(SegmentsAt(start_));
     double share = shift > most_shift ? most_shift / shift : 1;
     std::vector<Point2> moved = start_;
     for (int attempt = 0; attempt < 4; ++attempt, share /= 2) {
       for (size_t v = 0; v < at.size(); ++v) moved[v] = start_[v] + share * (at[v] - start_[v]);
-      if (Area(moved) > 0 && (crossed_before || !Crosses(moved))) break;
+      if (Area(moved) > 0 && !(touches ? PassesAnew(moved) : AnyCross(SegmentsAt(moved)))) break;
       moved = start_;
     }
     size_t v = 0;
@@ -60,10 +71,21 @@ class OutlineFit {
     return twice / 2;
   }
 
-  bool Crosses(const std::vector<Point2>& at) const {
+  std::vector<LineSegment> SegmentsAt(const std::vector<Point2>& at) const {
     std::vector<LineSegment> segments;
     for (const Edge& e : edges_) segments.push_back({at[e.a], at[e.b], e.a, e.b});
-    return AnyCross(segments);
+    return segments;
+  }
+
+  // An outline may touch itself, where a chart hangs together in a single vertex. Whether edges now pass
+  // through each other that did not at the start.
+  bool PassesAnew(const std::vector<Point2>& at) const {
+    const std::vector<LineSegment> before = SegmentsAt(start_), now = SegmentsAt(at);
+    const std::vector<int> meeting = CrossingSegments(now);
+    for (int i : meeting)
+      for (int j : meeting)
+        if (i < j && PassThrough(now[i], now[j]) && !PassThrough(before[i], before[j])) return true;
+    return false;
   }
 
   // Gauss-Newton: lengths count a million times as much as places. False when it is done.
