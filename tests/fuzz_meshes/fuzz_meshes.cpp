@@ -120,7 +120,7 @@ class Watchdog {
 
 struct Tally {
   int cases = 0, refused = 0, failures = 0;
-  double slowest = 0;
+  double seconds = 0, slowest = 0;
   unsigned long long slowest_case = 0;
 };
 
@@ -168,6 +168,7 @@ int main(int count, char** arguments) {
         outcome.wrong += "took " + std::to_string(seconds) + " s\n";
       Tally& tally = tallies[what.filter->python_name];
       ++tally.cases;
+      tally.seconds += seconds;
       if (!outcome.refusal.empty()) {
         ++tally.refused;
         ++reasons[Reason(outcome.refusal)];
@@ -188,8 +189,9 @@ int main(int count, char** arguments) {
   std::filesystem::current_path(std::filesystem::temp_directory_path());
   std::filesystem::remove_all(folder, error);
   for (const auto& [name, tally] : tallies)
-    std::printf("%-22s %7d cases, %6d refused, %d failures, slowest %.2f s (case %llu)\n", name.c_str(),
-                tally.cases, tally.refused, tally.failures, tally.slowest, tally.slowest_case);
+    std::printf("%-22s %7d cases, %6d refused, %d failures, mean %.3f s, slowest %.2f s (case %llu)\n",
+                name.c_str(), tally.cases, tally.refused, tally.failures, tally.seconds / tally.cases,
+                tally.slowest, tally.slowest_case);
   for (const auto& [reason, times] : reasons) std::printf("%7d refused: %s\n", times, reason.c_str());
   return failures > 0 ? 1 : 0;
 }

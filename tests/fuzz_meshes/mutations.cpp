@@ -139,7 +139,7 @@ void SetNotFinite(Random& random, SurfaceData& mesh) {
 
 void AddShape(Random& random, SurfaceData& mesh) {
   std::string name;
-  const SurfaceData other = RandomShape(random, random.Int(1, 60), name);
+  const SurfaceData other = RandomShape(random, static_cast<int>(random.Log(1, 60)), name);
   const double scale = random.Chance(0.5) ? 1 : random.Log(1e-6, 1e3);
   const Eigen::Vector3d offset =
       random.Chance(0.3) ? Eigen::Vector3d(0, 0, 0) : random.Log(0.1, 1e4) * random.Vector();

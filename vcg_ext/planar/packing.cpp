@@ -19,6 +19,14 @@
 namespace dcharts {
 namespace {
 
+// How long few charts are searched for a better packing. Nearly all the time of a small mesh is in here:
+// fuzzers take less of it.
+#ifdef DCHARTS_QUICK_PACKING
+constexpr int kTurns = 16, kCells = 128, kSearches = 1, kMostMoves = 50, kCompactSteps = 50;
+#else
+constexpr int kTurns = 64, kCells = 512, kSearches = 5, kMostMoves = 3500, kCompactSteps = 300;
+#endif
+
 Points2 Turned(const Points2& points, double angle) {
   Eigen::Matrix2d r;
   r << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
@@ -44,7 +52,7 @@ class Packer {
   Packer(const std::vector<Points2>& outlines, bool rotate, const std::function<void()>& poll)
       : outlines_(outlines), poll_(poll) {
     const int turns = !rotate                    ? 1
-                      : outlines.size() <= 200   ? 64
+                      : outlines.size() <= 200   ? kTurns
                       : outlines.size() <= 1000  ? 8
                       : outlines.size() <= 10000 ? 4
                                                  : 1;
@@ -151,7 +159,7 @@ class Packer {
   /// middles, charts overlap hardly or not at all; then they are compacted by their outlines. The best of
   /// several searches. `side`, `spots`: where to start; `packing` is that one, and is replaced by a larger.
   void Tighten(int side, const std::vector<Spot>& spots, const CompactOptions& options, Packing* packing) {
-    constexpr int kCoarse = 128, kSearches = 5;
+    constexpr int kCoarse = 128;
     const double coarse = static_cast<double>(kCoarse) / side;
     scale_ *= coarse;
     margin_ *= coarse;
@@ -165,7 +173,7 @@ class Packer {
       s.x = static_cast<int>(std::lround(s.x * coarse));
       s.y = static_cast<int>(std::lround(s.y * coarse));
     }
-    const int moves = std::clamp(40000 / static_cast<int>(turns_.size()), 800, 3500);
+    const int moves = std::min(std::max(800, 40000 / static_cast<int>(turns_.size())), kMostMoves);
     for (unsigned seed = 0; seed < kSearches; ++seed) {
       std::vector<Spot> moved = start;
       const int squeezed = Squeeze(shapes, kCoarse + kCoarse / 40, moves, seed, poll_, &moved);
@@ -224,7 +232,7 @@ Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
   const int count = static_cast<int>(outlines.size());
   // Cells along the square: fine ones fit charts closely, but cost time; many charts need many.
   // Finer than texels gains nothing.
-  const int cells = std::min(count <= 100    ? 512
+  const int cells = std::min(count <= 100    ? kCells
                              : count <= 5000 ? 1024
                                              : 2048,
                              std::max(64, options.texture_size));
@@ -269,7 +277,7 @@ Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
       CompactOptions compact;
       compact.padding = (padding + kHair) / options.texture_size;
       compact.rotate = options.rotate;
-      compact.most_steps = count <= 1000 ? 300 : 100;
+      compact.most_steps = count <= 1000 ? kCompactSteps : 100;
       if (count <= kMostCompacted) Compact(outlines, compact, packing.scale, poll, &packing);
       if (count <= kMostSqueezed) packer.Tighten(side, best_spots, compact, &packing);
       return packing;
