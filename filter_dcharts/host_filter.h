@@ -116,6 +116,7 @@ Report RunOnDocument(const FilterSpec& filter, const List& list, Document& docum
     const Params params = ReadParams(filter, list);
     if (model != nullptr) {
       surface = ReadSurface(model->cm);
+      if (HasMatrix(model->cm)) log("The layer's matrix is applied: lengths are those that are seen.");
       if (params.print_texture) ReadColors<Host>(*model, surface);
     }
     const SurfaceChange change = RunFilter(filter, model != nullptr ? &surface : nullptr, params, progress);
@@ -124,7 +125,6 @@ Report RunOnDocument(const FilterSpec& filter, const List& list, Document& docum
     if (!change.seam_lines.empty())
       AddLayer<Host>(document, "D-Charts seams", [&](auto& layer) {
         FillSeamLayer(change.seam_lines, layer.cm);
-        layer.cm.Tr = model->cm.Tr;
       });
     if (!change.pieces.faces.empty())
       AddLayer<Host>(document, "D-Charts pattern",

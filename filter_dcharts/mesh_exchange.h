@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <QImage>
@@ -21,7 +22,14 @@ namespace dcharts {
 /// SurfaceData).
 inline const char* const kSeamsAttribute = "dcharts_seams";
 
-/// Reads what the filters need. Deleted elements are left out; quality, texture coordinates and seams stay
+/// True when the layer is not shown as its coordinates are: it has a matrix.
+template <class Mesh>
+bool HasMatrix(const Mesh& mesh) {
+  return mesh.Tr != std::decay_t<decltype(mesh.Tr)>::Identity();
+}
+
+/// Reads what the filters need, with the layer's matrix applied: what the user sees, and what MeshLab's own
+/// measures are of. Deleted elements are left out; quality, texture coordinates and seams stay
 /// empty where the mesh has none.
 template <class Mesh>
 SurfaceData ReadSurface(Mesh& mesh) {
@@ -31,12 +39,15 @@ SurfaceData ReadSurface(Mesh& mesh) {
 
   std::vector<int> index(mesh.vert.size(), -1);  // place in the host's vector -> index among live vertices
   const bool has_vertex_quality = vcg::tri::HasPerVertexQuality(mesh);
+  const bool has_matrix = HasMatrix(mesh);
+  const auto matrix = vcg::Matrix44d::Construct(mesh.Tr);
   data.vertices.reserve(mesh.vn);
   for (std::size_t i = 0; i < mesh.vert.size(); ++i) {
     if (mesh.vert[i].IsD()) continue;
     index[i] = static_cast<int>(data.vertices.size());
-    const auto& p = mesh.vert[i].cP();
-    data.vertices.push_back({double(p[0]), double(p[1]), double(p[2])});
+    auto p = vcg::Point3d::Construct(mesh.vert[i].cP());
+    if (has_matrix) p = matrix * p;
+    data.vertices.push_back({p[0], p[1], p[2]});
     if (has_vertex_quality) data.vertex_quality.push_back(mesh.vert[i].cQ());
   }
 
