@@ -78,6 +78,21 @@ std::vector<ParamSpec> MakeParams() {
        "gives "
        "every hole charts of its own.",
        &Params::small_hole_percent, 0, 100},
+      // --- what charts are kept to
+      {"keep_seams", "Keep texture seams",
+       "Where the mesh's texture coordinates jump, charts end. Where such a seam ends inside a chart, the "
+       "chart "
+       "is cut along it.",
+       &Params::keep_seams},
+      {"crease_angle", "Keep creases above (degrees)",
+       "Charts end at edges that bend by more than this, in degrees. Where a crease ends inside a chart, the "
+       "chart is cut along it. Smaller values keep more creases; 180 keeps none, 0 every edge that bends.",
+       &Params::crease_angle, 0, 180},
+      {"selected_only", "Only selected faces",
+       "Only the selected faces take part, as if there were no others, and only they are written. Their "
+       "charts "
+       "get numbers that no other face has.",
+       &Params::selected_only},
       // --- the finished atlas
       {"target_charts", "Number of charts",
        "Number of charts in the finished atlas, reached exactly where the mesh allows it. Fewer charts have "
@@ -297,7 +312,7 @@ std::vector<FilterSpec> MakeFilters() {
        "Section 3.1", charts, coloring,
        Pick({"chart_count", "max_fitting_error", "fitting_weight", "compactness_weight",
              "straightness_weight", "max_iterations", "reassigned_percent", "seed_candidates", "seed_percent",
-             "target_charts", "max_stretch"})},
+             "target_charts", "max_stretch", "keep_seams", "crease_angle", "selected_only"})},
       {FilterId::kFill, "D-Charts: Fill", "dcharts_fill",
        "Gives every face that is in no chart to one: small holes are grown over by the charts around them, "
        "large ones "
@@ -306,16 +321,18 @@ std::vector<FilterSpec> MakeFilters() {
        "0.01 off a whole number is unassigned. Writes face quality and face colour.",
        "Section 3.2", charts, coloring,
        Pick({"max_fitting_error", "fitting_weight", "compactness_weight", "straightness_weight",
-             "small_hole_percent"})},
+             "small_hole_percent", "keep_seams", "crease_angle", "selected_only"})},
       {FilterId::kStraighten, "D-Charts: Straighten", "dcharts_straighten",
        "Straightens the borders between charts where faces fit both sides. No chart is added or lost. Reads "
        "charts from the face quality. Writes face quality and face colour.",
-       "Section 3.3", charts, coloring, Pick({"straighten_by", "max_fitting_error"})},
+       "Section 3.3", charts, coloring,
+       Pick({"straighten_by", "max_fitting_error", "keep_seams", "crease_angle", "selected_only"})},
       {FilterId::kMerge, "D-Charts: Merge", "dcharts_merge",
        "Joins neighbouring charts that can be laid flat together. Reads charts from the face quality. Writes "
        "face quality and face colour.",
        "Section 3.3", charts, coloring,
-       Pick({"target_charts", "max_stretch", "merge_by", "seam_weight", "merge_threshold"})},
+       Pick({"target_charts", "max_stretch", "merge_by", "seam_weight", "merge_threshold", "keep_seams",
+             "crease_angle", "selected_only"})},
       {FilterId::kCut, "D-Charts: Cut", "dcharts_cut",
        "Cuts charts so that they can lie flat: handles and closed surfaces are opened, and darts run from "
        "the border to "
@@ -326,7 +343,7 @@ std::vector<FilterSpec> MakeFilters() {
        "Parameterize is the next step. Vertices and faces stay as they are.",
        "Section 3.3", atlas, texture,
        Pick({"target_charts", "max_stretch", "dart_by", "dart_fitting_error", "max_dart_percent",
-             "cut_to_disk", "seam_layer"})},
+             "cut_to_disk", "seam_layer", "keep_seams", "crease_angle", "selected_only"})},
       {FilterId::kParameterize, "D-Charts: Parameterize", "dcharts_parameterize",
        "Flattens each chart with as little stretch or change of angles as possible and without flipped "
        "faces, cuts away what "
@@ -339,7 +356,8 @@ std::vector<FilterSpec> MakeFilters() {
        "itself is up to "
        "other filters.",
        "Sections 2, 4 and 5", atlas, texture,
-       Pick({"target_charts", "max_stretch", "method", "texture_size", "padding", "rotate", "density_by"})},
+       Pick({"target_charts", "max_stretch", "method", "texture_size", "padding", "rotate", "density_by",
+             "selected_only"})},
       {FilterId::kTextureAtlas, "D-Charts: Texture Atlas", "dcharts_texture_atlas",
        "Makes a texture atlas: the six D-Charts stages in one. Writes chart numbers to the face quality, "
        "colours to the face colour, texture coordinates to the wedges; vertices and faces stay as they are.",
@@ -369,7 +387,10 @@ std::vector<FilterSpec> MakeFilters() {
              "texture_size",
              "padding",
              "rotate",
-             "density_by"})},
+             "density_by",
+             "keep_seams",
+             "crease_angle",
+             "selected_only"})},
       {FilterId::kPattern, "D-Charts: Pattern", "dcharts_pattern",
        "Makes a pattern to sew or to fold: flat pieces in mm, at the size of the finished object, with "
        "seams, "
@@ -400,7 +421,9 @@ std::vector<FilterSpec> MakeFilters() {
              "merge_threshold",
              "dart_by",
              "dart_fitting_error",
-             "max_dart_percent"})},
+             "max_dart_percent",
+             "keep_seams",
+             "crease_angle"})},
       {FilterId::kMeasure,
        "D-Charts: Measure",
        "dcharts_measure",
@@ -436,12 +459,13 @@ bool IsAdvanced(const FilterSpec& filter, const ParamSpec& param) {
   static const std::set<std::string_view> of_atlas = {
       "fitting_weight",     "compactness_weight", "straightness_weight", "max_iterations",
       "reassigned_percent", "seed_candidates",    "seed_percent",        "small_hole_percent",
-      "merge_threshold",    "dart_fitting_error"};
+      "merge_threshold",    "dart_fitting_error", "keep_seams",          "crease_angle"};
   static const std::set<std::string_view> of_pattern = {
       "chart_count",        "max_fitting_error",   "fitting_weight",
       "compactness_weight", "straightness_weight", "merge_by",
       "seam_weight",        "merge_threshold",     "dart_by",
-      "dart_fitting_error", "max_dart_percent",    "simplify_tolerance"};
+      "dart_fitting_error", "max_dart_percent",    "simplify_tolerance",
+      "keep_seams",         "crease_angle"};
   if (filter.id == FilterId::kTextureAtlas) return of_atlas.count(param.name) > 0;
   return filter.id == FilterId::kPattern && of_pattern.count(param.name) > 0;
 }

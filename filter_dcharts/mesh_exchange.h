@@ -22,6 +22,8 @@ namespace dcharts {
 /// SurfaceData).
 inline const char* const kSeamsAttribute = "dcharts_seams";
 
+inline constexpr int kAllSeamBits = 63;
+
 /// True when the layer is not shown as its coordinates are: it has a matrix.
 template <class Mesh>
 bool HasMatrix(const Mesh& mesh) {
@@ -61,6 +63,7 @@ SurfaceData ReadSurface(Mesh& mesh) {
     std::array<int, 3> corners;
     for (int k = 0; k < 3; ++k) corners[k] = index[vcg::tri::Index(mesh, face.cV(k))];
     data.faces.push_back(corners);
+    data.selected.push_back(face.IsS() ? 1 : 0);
     if (has_quality) data.face_quality.push_back(face.cQ());
     if (has_texcoords) {
       std::array<float, 6> uv;
@@ -73,8 +76,8 @@ SurfaceData ReadSurface(Mesh& mesh) {
     }
     if (has_seams) {
       const Scalar mask = seams[face];
-      data.seams.push_back(mask >= 0 && mask <= 7 ? static_cast<std::uint8_t>(std::lround(mask))
-                                                  : std::uint8_t{0});
+      data.seams.push_back(mask >= 0 && mask <= kAllSeamBits ? static_cast<std::uint8_t>(std::lround(mask))
+                                                             : std::uint8_t{0});
     }
   }
   return data;
@@ -125,6 +128,7 @@ class SurfaceWriter {
     CheckSize(change.colors.size(), faces);
     CheckSize(change.wedge_texcoords.size(), faces);
     CheckSize(change.seams.size(), faces);
+    CheckSize(change.written.size(), faces);
     try {
       Enable(!change.chart_ids.empty(), Model::MM_FACEQUALITY);
       Enable(!change.colors.empty(), Model::MM_FACECOLOR);
@@ -151,6 +155,10 @@ class SurfaceWriter {
     std::size_t i = 0;  // index among live faces
     for (auto& face : model_.cm.face) {
       if (face.IsD()) continue;
+      if (!change_.written.empty() && change_.written[i] == 0) {
+        ++i;
+        continue;
+      }
       if (!change_.chart_ids.empty()) face.Q() = static_cast<Scalar>(change_.chart_ids[i]);
       if (!change_.colors.empty()) {
         const auto& rgb = change_.colors[i];

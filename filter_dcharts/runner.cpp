@@ -10,6 +10,7 @@
 #include "dcharts.h"
 #include "pattern/drawing/flat_layer.h"
 #include "pattern/drawing/write_pattern.h"
+#include "surface/selected_faces.h"
 
 namespace dcharts {
 
@@ -91,7 +92,8 @@ SurfaceChange RunFilter(const FilterSpec& filter, const SurfaceData* mesh, const
     CheckParams(filter, params);
     if (mesh == nullptr) throw Error("There is no mesh. Open or create one first.");
     const auto start = std::chrono::steady_clock::now();
-    SurfaceChange change = Call(filter.id, *mesh, params, progress);
+    const auto stage = [&](const SurfaceData& data) { return Call(filter.id, data, params, progress); };
+    SurfaceChange change = params.selected_only ? OnSelectedFaces(*mesh, stage) : stage(*mesh);
     change.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return change;
   });

@@ -13,44 +13,18 @@
 
 #include "atlas_checks.h"
 #include "coarse_shapes.h"
+#include "run_stages.h"
 
 namespace dcharts {
 namespace {
 
 using test::Coarse;
+using test::kAllStages;
 using test::kCoarse;
-
-/// What is left of a mesh between two stages.
-enum class Kept {
-  kAll,        ///< a session: the seams' attribute too
-  kFile,       ///< a PLY file: face quality and wedge texcoords
-  kChartsOnly  ///< face quality only
-};
-
-// A host writes what a stage wants written.
-void Write(const SurfaceChange& change, Kept kept, SurfaceData& mesh) {
-  mesh.face_quality.assign(change.chart_ids.begin(), change.chart_ids.end());
-  if (!change.wedge_texcoords.empty()) {
-    mesh.wedge_texcoords = change.wedge_texcoords;
-    mesh.wedge_texture_index.assign(mesh.faces.size(), 0);
-  }
-  if (change.remove_seams) mesh.seams.clear();
-  if (!change.seams.empty() && kept == Kept::kAll) mesh.seams = change.seams;
-}
-
-using Stage = SurfaceChange (*)(const SurfaceData&, const Params&, Progress&);
-
-SurfaceChange RunAll(SurfaceData mesh, const Params& params, Kept kept, const std::vector<Stage>& stages) {
-  SurfaceChange change;
-  for (Stage stage : stages) {
-    Progress progress;
-    change = stage(mesh, params, progress);
-    Write(change, kept, mesh);
-  }
-  return change;
-}
-
-const std::vector<Stage> kAllStages{Segment, Fill, Straighten, Merge, Cut, Parameterize};
+using test::Kept;
+using test::RunAll;
+using test::Stage;
+using test::Write;
 
 class StageByStage : public testing::TestWithParam<Coarse> {};
 

@@ -74,6 +74,11 @@ struct Params {
   double small_hole_percent =
       1.0;  ///< holes up to this share of the surface area are grown over, percent, 0..100
 
+  // --- what charts are kept to
+  bool keep_seams = false;     ///< borders in the texture coordinates stay borders of charts
+  double crease_angle = 180;   ///< edges that bend more sharply stay borders of charts, degrees, 0..180
+  bool selected_only = false;  ///< only the selected faces take part
+
   // --- the finished atlas: a stage uses what concerns it
   int target_charts = 0;      ///< number of charts in the finished atlas, >= 0; 0 = as many as it takes
   double max_stretch = 1.01;  ///< bound on the L2 stretch of every chart at its own scale, >= 1, or 0: none

@@ -23,7 +23,9 @@ struct SurfaceData {
   std::vector<double> face_quality;                   ///< per face, or empty when the host has none
   std::vector<std::array<float, 6>> wedge_texcoords;  ///< per face u0 v0 u1 v1 u2 v2, or empty
   std::vector<std::int16_t> wedge_texture_index;      ///< per face (that of its first corner), or empty
-  std::vector<std::uint8_t> seams;  ///< per face, bit i = edge (i, i+1) is a seam; or empty: no attribute
+  std::vector<std::uint8_t> seams;  ///< per face, or empty (no attribute): bit i = edge (i, i+1) is a seam,
+                                    ///< bit 3 + i = it is one that charts are kept to
+  std::vector<char> selected;       ///< per face
 
   // Colours, read only where they are wanted.
   std::vector<TextureImage> textures;  ///< by wedge_texture_index
@@ -41,6 +43,7 @@ struct FlatLayer {
 
 /// What a filter wants written. An empty array means: leave that as it is.
 struct SurfaceChange {
+  std::vector<char> written;                          ///< per face: it is written; empty = all are
   std::vector<int> chart_ids;                         ///< per face, -1 = unassigned; goes to face quality
   std::vector<std::array<std::uint8_t, 3>> colors;    ///< per face RGB
   std::vector<std::array<float, 6>> wedge_texcoords;  ///< per face; texture index 0

@@ -36,6 +36,7 @@ struct ChartGroups {
   /// `of_parts` must outlive the groups; each part is a chart at first.
   ChartGroups(ChartParts<MeshType>& of_parts, const Params& with_params, Progress& to_progress)
       : parts(of_parts), params(with_params), progress(to_progress) {
+    apart = parts.KeptApart();
     alive = parts.Count();
     std::vector<std::vector<int>> single(alive);
     for (int c = 0; c < alive; ++c) single[c] = {c};
@@ -199,7 +200,8 @@ struct ChartGroups {
   int alive = 0;
   double bound = kNoBound;                                           ///< on the L2 stretch of a chart
   std::map<std::vector<int>, std::pair<double, ChartTrial>> trials;  ///< of parts: bound, trial
-  std::set<std::pair<int, int>> apart;  ///< parts that overlap when they are in one chart
+  std::set<std::pair<int, int>> apart;  ///< parts that are not to be in one chart: they would overlap, or a
+                                        ///< kept border is between them
 };
 
 }  // namespace dcharts

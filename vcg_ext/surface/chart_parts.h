@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "surface/chart_patch.h"
@@ -36,7 +38,12 @@ class ChartParts {
       const int g = surface.Neighbour(h);
       if (g >= 0 && ids[g] != ids[h / 3]) borders_[ids[h / 3]][ids[g]] += surface.Length(h) / unit_;
     }
+    for (const auto& [h, o] : surface.Parted())
+      if (ids[h / 3] != ids[o / 3]) kept_apart_.insert(std::minmax(ids[h / 3], ids[o / 3]));
   }
+
+  /// Pairs of parts that have a kept border between them (SurfaceGraph::Parted), the smaller first.
+  const std::set<std::pair<int, int>>& KeptApart() const { return kept_apart_; }
 
   int Count() const { return static_cast<int>(area_.size()); }
   double Area(int part) const { return area_[part]; }
@@ -67,6 +74,7 @@ class ChartParts {
   std::vector<std::vector<int>> fine_faces_;
   std::vector<double> area_;
   std::vector<std::map<int, double>> borders_;
+  std::set<std::pair<int, int>> kept_apart_;
   double unit_;
   SeamMask no_seams_;
   PatchExtractor<MeshType> fine_;

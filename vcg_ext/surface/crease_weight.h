@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/pi.h"
+#include "surface/charts.h"
 #include "surface/surface_graph.h"
 
 namespace dcharts {
@@ -18,6 +19,17 @@ double DihedralAngle(const SurfaceGraph<MeshType>& surface, int half_edge) {
   const auto &m = surface.Normal(half_edge / 3), &n = surface.Normal(g);
   if (m.isZero(0) || n.isZero(0)) return 0;
   return std::acos(std::clamp(m.dot(n), -1.0, 1.0));
+}
+
+/// Edges that bend more sharply than an angle in degrees, as a seam mask on both sides.
+template <class MeshType>
+SeamMask CreasesAbove(const SurfaceGraph<MeshType>& surface, double degrees) {
+  constexpr double kRounding = 0.01;  // degrees; of coordinates in float
+  SeamMask creases(surface.FaceCount(), 0);
+  if (degrees >= 180) return creases;
+  for (int h = 0; h < surface.HalfEdgeCount(); ++h)
+    if (DihedralAngle(surface, h) * 180 / kPi > degrees + kRounding) SetSeam(creases, h);
+  return creases;
 }
 
 /// What a unit of border length counts at each half-edge, so that borders run along creases: 1 where the

@@ -56,17 +56,21 @@ class GreedyMerger {
     bool refused = false;     // on the fine surface
   };
 
+  bool MayMerge(int a, int b) const {
+    return groups_.apart.empty() || groups_.MayStandTogether(groups_.PartsOfBoth(a, b));
+  }
+
   void StartQueue() {
     queue_ = {};
     groups_.FindBorders();
     std::vector<std::vector<int>> untried;
     for (int a = 0; a < static_cast<int>(groups_.charts.size()); ++a)
       for (const auto& [b, length] : groups_.charts[a].borders)
-        if (a < b && !unions_[{a, b}].tried) untried.push_back(groups_.PartsOfBoth(a, b));
+        if (a < b && !unions_[{a, b}].tried && MayMerge(a, b)) untried.push_back(groups_.PartsOfBoth(a, b));
     groups_.TryAll(untried);
     for (int a = 0; a < static_cast<int>(groups_.charts.size()); ++a)
       for (const auto& [b, length] : groups_.charts[a].borders)
-        if (a < b && !unions_[{a, b}].tried) Record(a, b);
+        if (a < b && !unions_[{a, b}].tried && MayMerge(a, b)) Record(a, b);
     for (int a = 0; a < static_cast<int>(groups_.charts.size()); ++a)
       for (const auto& [b, length] : groups_.charts[a].borders)
         if (a < b) Push(a, b);
@@ -88,8 +92,7 @@ class GreedyMerger {
   // Queues a pair under what its merge costs, or costs at least, unless it is out of the question.
   void Push(int a, int b) {
     const Union& both = unions_[{a, b}];
-    if (both.refused || (both.tried && !both.trial.flat)) return;
-    if (!groups_.apart.empty() && !groups_.MayStandTogether(groups_.PartsOfBoth(a, b))) return;
+    if (both.refused || (both.tried && !both.trial.flat) || !MayMerge(a, b)) return;
     double saved = groups_.charts[a].borders[b];
     if (both.tried)
       saved -= groups_.CutLength(both.trial) - groups_.CutLength(groups_.charts[a].trial) -

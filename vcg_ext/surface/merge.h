@@ -68,6 +68,7 @@ class Merger {
         std::tuple<double, int, int, int>;  // error, charts, and the pair's version when it was measured
     std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
     auto push = [&](int a, int b) {
+      if (kept_apart_[a].count(b) > 0) return;
       const double error = PairError(ids, a, b);
       if (params_.target_charts > 0 || error < params_.merge_threshold)
         queue.push({error, a, b, version_[a] + version_[b]});
@@ -111,6 +112,12 @@ class Merger {
       neighbours_[a].insert(b);
       neighbours_[b].insert(a);
     }
+    kept_apart_.assign(faces_.size(), {});
+    for (const auto& [h, o] : surface_.Parted()) {
+      if (ids[h / 3] == ids[o / 3]) continue;
+      kept_apart_[ids[h / 3]].insert(ids[o / 3]);
+      kept_apart_[ids[o / 3]].insert(ids[h / 3]);
+    }
   }
 
   double PairError(const ChartIds& ids, int a, int b) {
@@ -125,6 +132,10 @@ class Merger {
     area_[a] += area_[b];
     ++version_[a];
     borders_.erase({a, b});
+    for (int c : kept_apart_[b]) {
+      kept_apart_[a].insert(c);
+      kept_apart_[c].insert(a);
+    }
     neighbours_[a].erase(b);
     for (int c : neighbours_[b]) {
       if (c == a) continue;
@@ -147,6 +158,7 @@ class Merger {
   std::vector<double> area_;
   std::vector<int> version_;  // a pair measured before one of its charts grew is out of date
   std::vector<std::set<int>> neighbours_;
+  std::vector<std::set<int>> kept_apart_;                    // charts with a kept border between them
   std::map<std::pair<int, int>, std::vector<int>> borders_;  // faces on both sides of the common boundary
 };
 

@@ -56,10 +56,12 @@ void ReportCharts(const Workspace& work, const ChartIds& ids, const SeamMask& se
 }
 
 // What Segment, Fill, Straighten and Merge have in common.
-SurfaceChange ChartsWritten(const Workspace& work, const ChartIds& ids, SurfaceChange change) {
+SurfaceChange ChartsWritten(Workspace& work, const ChartIds& ids, SurfaceChange change) {
   work.WriteCharts(ids, change);
   change.remove_seams = true;
-  ReportCharts(work, ids, ChartBorders(work.Surface(), ids), change.report);
+  SeamMask borders = ChartBorders(work.Surface(), ids);
+  work.ReleaseBorders(borders);
+  ReportCharts(work, ids, borders, change.report);
   return change;
 }
 
@@ -71,7 +73,7 @@ void MergeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params,
     Merger<SurfaceMesh>(surface, params, progress).Run(ids);
 }
 
-void FinishAtlas(const Workspace& work, ChartIds& ids, SeamMask& seams, const KnownFlattenings& known,
+void FinishAtlas(Workspace& work, ChartIds& ids, SeamMask& seams, const KnownFlattenings& known,
                  const Params& params, Progress& progress, double from, SurfaceChange& change) {
   WedgeTexcoords uv;
   {
@@ -80,11 +82,12 @@ void FinishAtlas(const Workspace& work, ChartIds& ids, SeamMask& seams, const Kn
              .Run(ids, seams,
                   params.density_by == DensityBy::kVertexQuality ? work.ReadDensity(progress)
                                                                  : std::vector<double>());
-    DropIneffectiveSeams(work.Surface(), seams);
+    work.ReleaseBorders(seams);
   }
   Stage stage("measure", "Measuring...", 0.97, 1, progress, change.report);
   work.WriteCharts(ids, change);
   work.WriteTexcoords(uv, change);
+  work.WarnOfReplacedTexcoords(progress);
   change.remove_seams = true;
   ReportCharts(work, ids, seams, change.report);
   if (params.target_charts > 0 && ChartCount(ids) != params.target_charts)
@@ -96,7 +99,8 @@ void FinishAtlas(const Workspace& work, ChartIds& ids, SeamMask& seams, const Kn
 }  // namespace
 
 SurfaceChange Segment(const SurfaceData& mesh, const Params& params, Progress& progress) {
-  const Workspace work(mesh);
+  Workspace work(mesh);
+  work.KeepBorders(params, progress);
   SurfaceChange change;
   Segmentation result;
   {
@@ -108,7 +112,8 @@ SurfaceChange Segment(const SurfaceData& mesh, const Params& params, Progress& p
 }
 
 SurfaceChange Fill(const SurfaceData& mesh, const Params& params, Progress& progress) {
-  const Workspace work(mesh);
+  Workspace work(mesh);
+  work.KeepBorders(params, progress);
   SurfaceChange change;
   ChartIds ids = work.ReadCharts();
   {
@@ -119,7 +124,8 @@ SurfaceChange Fill(const SurfaceData& mesh, const Params& params, Progress& prog
 }
 
 SurfaceChange Straighten(const SurfaceData& mesh, const Params& params, Progress& progress) {
-  const Workspace work(mesh);
+  Workspace work(mesh);
+  work.KeepBorders(params, progress);
   SurfaceChange change;
   ChartIds ids = work.ReadFilledCharts(progress);
   {
@@ -130,7 +136,8 @@ SurfaceChange Straighten(const SurfaceData& mesh, const Params& params, Progress
 }
 
 SurfaceChange Merge(const SurfaceData& mesh, const Params& params, Progress& progress) {
-  const Workspace work(mesh);
+  Workspace work(mesh);
+  work.KeepBorders(params, progress);
   SurfaceChange change;
   ChartIds ids = work.ReadFilledCharts(progress);
   {
@@ -141,7 +148,8 @@ SurfaceChange Merge(const SurfaceData& mesh, const Params& params, Progress& pro
 }
 
 SurfaceChange Cut(const SurfaceData& mesh, const Params& params, Progress& progress) {
-  const Workspace work(mesh);
+  Workspace work(mesh);
+  work.KeepBorders(params, progress);
   SurfaceChange change;
   ChartIds ids = work.ReadFilledCharts(progress);
   SeamMask seams;
@@ -150,16 +158,19 @@ SurfaceChange Cut(const SurfaceData& mesh, const Params& params, Progress& progr
     Stage stage("cut", "Cutting darts...", 0.02, 1, progress, change.report);
     change.report.darts = ChartCutter<SurfaceMesh>(work.Surface(), params, progress).Run(ids, seams, known);
   }
+  const SeamMask kept = work.KeptBorders();
+  work.ReleaseBorders(seams);
   work.WriteCharts(ids, change);
-  work.WriteSeams(seams, change);
+  work.WriteSeams(seams, kept, change);
   work.WriteTexcoords(ProvisionalTexcoords(work.Surface(), seams), change);
+  work.WarnOfReplacedTexcoords(progress);
   if (params.seam_layer) work.WriteSeamLines(seams, change);
   ReportCharts(work, ids, seams, change.report);
   return change;
 }
 
 SurfaceChange Parameterize(const SurfaceData& mesh, const Params& params, Progress& progress) {
-  const Workspace work(mesh);
+  Workspace work(mesh);
   SurfaceChange change;
   ChartIds ids = work.ReadFilledCharts(progress);
   SeamMask seams;
@@ -199,7 +210,8 @@ void MakeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, 
 }
 
 SurfaceChange TextureAtlas(const SurfaceData& mesh, const Params& params, Progress& progress) {
-  const Workspace work(mesh);
+  Workspace work(mesh);
+  work.KeepBorders(params, progress);
   SurfaceChange change;
   ChartIds ids;
   SeamMask seams;

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -67,6 +68,25 @@ class SurfaceGraph {
     for (int h = 0; h < HalfEdgeCount(); ++h) ring_[fill[vertex_[h]]++] = h;
   }
 
+  /// Makes edges borders: bit i of a face's mask is edge (i, i+1); either side's bit will do.
+  void Part(const std::vector<std::uint8_t>& edges) {
+    for (int h = 0; h < HalfEdgeCount(); ++h)
+      if ((edges[h / 3] >> (h % 3) & 1) != 0 && opposite_[h] >= 0) {
+        parted_.push_back({h, opposite_[h]});
+        opposite_[opposite_[h]] = -1;
+        opposite_[h] = -1;
+      }
+  }
+  /// The edges that Part made borders, by their half-edges, since the last RejoinParted.
+  const std::vector<std::pair<int, int>>& Parted() const { return parted_; }
+  void RejoinParted() {
+    for (const auto& [h, o] : parted_) {
+      opposite_[h] = o;
+      opposite_[o] = h;
+    }
+    parted_.clear();
+  }
+
   int FaceCount() const { return static_cast<int>(area_.size()); }
   int HalfEdgeCount() const { return static_cast<int>(vertex_.size()); }
   int VertexCount() const { return static_cast<int>(position_.size()); }
@@ -97,6 +117,7 @@ class SurfaceGraph {
   std::vector<double> length_, step_, area_;
   std::vector<Eigen::Vector3d> normal_, centroid_, position_;
   double total_area_ = 0;
+  std::vector<std::pair<int, int>> parted_;
 };
 
 /// The half-edge before / after `h` in its face.

@@ -4,15 +4,48 @@
 #include <algorithm>
 #include <cmath>
 
+#include "surface/crease_weight.h"
 #include "surface/denoised_normals.h"
 #include "surface/fill.h"
 #include "surface/texel_density.h"
 
 namespace dcharts {
+namespace {
+
+constexpr int kKeptShift = 3;  // see SurfaceData::seams
+
+}  // namespace
 
 Workspace::Workspace(const SurfaceData& data)
     : data_(data), built_(BuildSurface(data, mesh_)), surface_(mesh_) {
   DenoiseNormals(surface_);
+}
+
+void Workspace::KeepBorders(const Params& params, Progress& progress) {
+  SeamMask kept = CreasesAbove(surface_, params.crease_angle);
+  if (params.keep_seams) {
+    if (HasTexcoords()) {
+      const SeamMask seams = TextureSeams();
+      for (size_t f = 0; f < kept.size(); ++f) kept[f] = static_cast<std::uint8_t>(kept[f] | seams[f]);
+    } else {
+      progress.Log("The mesh has no texture coordinates, so keep_seams finds no seams to keep.");
+    }
+  }
+  surface_.Part(kept);
+}
+
+void Workspace::ReleaseBorders(SeamMask& seams) {
+  const SeamMask kept = KeptBorders();
+  ReleaseBorders();
+  for (size_t f = 0; f < kept.size(); ++f) seams[f] = static_cast<std::uint8_t>(seams[f] | kept[f]);
+  DropIneffectiveSeams(surface_, seams);
+}
+
+SeamMask Workspace::KeptBorders() const {
+  SeamMask kept(surface_.FaceCount(), 0);
+  for (const auto& [h, o] : surface_.Parted())
+    for (int k : {h, o}) SetSeam(kept, k);
+  return kept;
 }
 
 ChartIds Workspace::ReadCharts() const {
@@ -57,13 +90,24 @@ WedgeTexcoords Workspace::ReadTexcoords() const {
   return uv;
 }
 
-bool Workspace::ReadSeams(const ChartIds& ids, SeamMask& seams) const {
-  if (!data_.seams.empty()) {
-    seams.clear();
-    for (int f : built_.source_face) seams.push_back(data_.seams[f] & 7);
-    for (int h = 0; h < surface_.HalfEdgeCount(); ++h)  // a border is no seam
+bool Workspace::ReadSeams(const ChartIds& ids, SeamMask& seams) {
+  const auto drop_borders = [&] {  // a border is no seam
+    for (int h = 0; h < surface_.HalfEdgeCount(); ++h)
       if (surface_.Opposite(h) < 0) seams[h / 3] = static_cast<std::uint8_t>(seams[h / 3] & ~(1 << (h % 3)));
-    if (SeamsAgree(surface_, ids, seams)) return true;
+  };
+  if (!data_.seams.empty()) {
+    SeamMask kept;
+    seams.clear();
+    for (int f : built_.source_face) {
+      seams.push_back(data_.seams[f] & 7);
+      kept.push_back(data_.seams[f] >> kKeptShift & 7);
+    }
+    drop_borders();
+    if (SeamsAgree(surface_, ids, seams)) {
+      surface_.Part(kept);
+      drop_borders();
+      return true;
+    }
   }
   if (!data_.wedge_texcoords.empty()) {
     const WedgeTexcoords uv = ReadTexcoords();
@@ -73,6 +117,13 @@ bool Workspace::ReadSeams(const ChartIds& ids, SeamMask& seams) const {
     }
   }
   return false;
+}
+
+void Workspace::WarnOfReplacedTexcoords(Progress& progress) const {
+  if (HasTexcoords() && data_.seams.empty())
+    progress.Log(
+        "The texture coordinates that the mesh had are replaced, and MeshLab has no undo: to keep them, make "
+        "a copy with 'Duplicate Current Layer' before.");
 }
 
 std::vector<double> Workspace::ReadDensity(Progress& progress) const {
@@ -111,9 +162,10 @@ void Workspace::WriteCharts(const ChartIds& ids, SurfaceChange& change) const {
   for (int id : change.chart_ids) change.colors.push_back(ChartColor(id));
 }
 
-void Workspace::WriteSeams(const SeamMask& seams, SurfaceChange& change) const {
+void Workspace::WriteSeams(const SeamMask& seams, const SeamMask& kept, SurfaceChange& change) const {
   change.seams.assign(data_.faces.size(), 0);
-  for (int f = 0; f < surface_.FaceCount(); ++f) change.seams[built_.source_face[f]] = seams[f];
+  for (int f = 0; f < surface_.FaceCount(); ++f)
+    change.seams[built_.source_face[f]] = static_cast<std::uint8_t>(seams[f] | kept[f] << kKeptShift);
 }
 
 void Workspace::WriteTexcoords(const WedgeTexcoords& uv, SurfaceChange& change) const {

@@ -18,7 +18,7 @@ class BaseMesh {
   explicit BaseMesh(const SurfaceData& users) : users_(users), mesh_(&users) { work_.emplace(users); }
 
   const SurfaceData& Mesh() const { return *mesh_; }
-  const Workspace& Work() const { return *work_; }
+  Workspace& Work() { return *work_; }
   const SurfaceGraph<SurfaceMesh>& Surface() const { return work_->Surface(); }
   /// The plane of symmetry, once it was looked for.
   const std::optional<MirrorPlane>& Mirror() const { return mirror_; }

@@ -80,8 +80,9 @@ void MakeChartsSymmetric(const SurfaceGraph<SurfaceMesh>& surface, const Params&
 }
 
 // All but scale and what has to do with the user's faces.
-PatternResult PatternOfMesh(const BaseMesh& base, const Params& params, double scale, Progress& progress) {
+PatternResult PatternOfMesh(BaseMesh& base, const Params& params, double scale, Progress& progress) {
   const auto& surface = base.Surface();
+  base.Work().KeepBorders(params, progress);
   PatternResult result;
   ChartIds ids;
   SeamMask seams;
@@ -91,17 +92,21 @@ PatternResult PatternOfMesh(const BaseMesh& base, const Params& params, double s
   if (base.Mirror())
     MakeChartsSymmetric(surface, params, kChartsShare, progress, *base.Mirror(), ids, seams, known);
   progress.BeginStage("Flattening charts...", kChartsShare, kFlatShare);
-  const auto flatten = [&](const SurfaceData& data, const Workspace& ready, const KnownFlattenings& flat) {
+  const auto flatten = [&](const SurfaceData& data, Workspace& ready, const KnownFlattenings& flat) {
     const double to_mm = scale * DataCoordinates(data, ready.Surface()).Scale();
     ChartsForPattern charts(ready.Surface(), params, to_mm, base.Half(), progress);
     charts.Flatten(ids, seams, flat);
+    ready.ReleaseBorders(seams);
     return charts.Take(ids, seams, data, scale, ready.SourceFaces());
   };
   FlatCharts charts;
   if (params.material == PatternMaterial::kFabric) {
     SurfaceData smooth = WithSmoothSeams(base.Mesh(), surface, seams);
     if (base.Half() > 0) MirrorFirstHalf(base.Mesh(), base.Half(), smooth);
-    charts = flatten(smooth, Workspace(smooth), KnownFlattenings());
+    Workspace ready(smooth);
+    ready.KeepBordersOf(base.Work());
+    charts = flatten(smooth, ready, KnownFlattenings());
+    base.Work().ReleaseBorders();
   } else {
     charts = flatten(base.Mesh(), base.Work(), known);
   }
@@ -125,9 +130,10 @@ PatternResult MakePattern(const SurfaceData& mesh, const Params& params, Progres
                 " long. Give the size that it is to have in `size`, from 1 mm to 100 m.");
   const double scale = side / model_side;
 
-  // A texture lies on the triangles of the user's mesh, and a number of charts that was asked for might not
-  // be met by mirrored ones.
-  if (!params.print_texture) {
+  // A texture and borders to keep lie on the triangles of the user's mesh, and a number of charts that was
+  // asked for might not be met by mirrored ones.
+  const bool keeps_borders = params.keep_seams || params.crease_angle < 180;
+  if (!params.print_texture && !keeps_borders) {
     base.Coarsen(params.material);
     if (params.target_charts == 0) base.FindMirror();
     base.MakeSymmetric(params.material);
