@@ -86,6 +86,13 @@ def use_texture(material_file, texture):
     material_file.write_text(re.sub(r"(?m)^(newmtl .*)$", rf"\1\nmap_Kd {texture}", text), encoding="utf-8")
 
 
+def save(ms, path, **options):
+    try:
+        ms.save_current_mesh(str(path), **options)
+    except pymeshlab.PyMeshLabException as error:
+        raise OSError(f"{path.name} could not be written") from error
+
+
 def write_patterns(mesh_path, folder):
     """Writes the pattern's files and returns the filter's figures."""
     for name in PATTERN_FILES:
@@ -121,10 +128,10 @@ def write_all(mesh_path, folder):
     mesh = ms.current_mesh()
     model = Model(mesh.vertex_matrix(), mesh.face_matrix(), mesh.face_scalar_array(), mesh.wedge_tex_coord_matrix(),
                   mesh.face_color_matrix()[:, :3])
-    ms.save_current_mesh(str(folder / "segmented.ply"), save_face_quality=True, save_face_color=True)
+    save(ms, folder / "segmented.ply", save_face_quality=True, save_face_color=True)
     # MeshLab writes one material per face colour; an atlas is one material with one texture.
     ms.compute_color_by_function_per_face(r="255", g="255", b="255", a="255")
-    ms.save_current_mesh(str(folder / "atlas.obj"), save_wedge_texcoord=True, save_textures=False)
+    save(ms, folder / "atlas.obj", save_wedge_texcoord=True, save_textures=False)
     checker_image().save(folder / TEXTURE)
     use_texture(folder / "atlas.obj.mtl", TEXTURE)
     watch.step("write")

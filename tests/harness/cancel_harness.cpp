@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Cancels every filter of a plugin at every callback and checks that the document keeps every byte.
+/// Cancels every filter of a plugin at every callback and checks that the document keeps every byte; and that
+/// deleted elements of a mesh don't matter.
 /// usage: cancel_harness PLUGIN_FILE
 /// Prints a line per filter; exit code 0 when all is well, 1 with the reasons otherwise.
 #include <algorithm>
@@ -9,6 +10,7 @@
 
 #include <QCoreApplication>
 
+#include "deleted_elements.h"
 #include "host_api.h"
 #include "snapshot.h"
 #include "test_mesh.h"
@@ -109,6 +111,18 @@ int RunAll(Plugin& plugin, bool seam_layer) {
   return failures;
 }
 
+/// The filter that does all at once.
+int RunWithDeleted(Plugin& plugin) {
+  for (QAction* filter : plugin.Filters()) {
+    if (filter->text() != "D-Charts: Texture Atlas") continue;
+    const std::string problem = DifferenceByDeleted(plugin, filter);
+    std::printf("%s deleted elements: %s\n", problem.empty() ? "ok  " : "FAIL", problem.c_str());
+    return problem.empty() ? 0 : 1;
+  }
+  std::printf("FAIL there is no Texture Atlas\n");
+  return 1;
+}
+
 }  // namespace
 }  // namespace harness
 
@@ -120,7 +134,8 @@ int main(int argc, char** argv) {
   }
   try {
     harness::Plugin plugin(QString::fromLocal8Bit(argv[1]));
-    const int failures = harness::RunAll(plugin, false) + harness::RunAll(plugin, true);
+    const int failures =
+        harness::RunAll(plugin, false) + harness::RunAll(plugin, true) + harness::RunWithDeleted(plugin);
     return failures == 0 ? 0 : 1;
   } catch (const std::exception& error) {
     std::printf("FAIL %s\n", error.what());

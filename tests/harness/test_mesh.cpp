@@ -67,6 +67,7 @@ void FillWithArbitraryValues(MeshModel& model) {
 MeshModel* AddTestMesh(MeshDocument& document) {
   MeshModel* model = document.addNewMesh("", "test mesh");
   CMeshO& mesh = model->cm;
+  vcg::tri::Allocator<CMeshO>::AddVertices(mesh, 2);
   AddGrid(mesh, 8, 16, true, [](double u, double v) {
     const double r = 1.0 + 0.4 * std::cos(kTurn * u);
     return Point3m(r * std::cos(kTurn * v), r * std::sin(kTurn * v), 0.4 * std::sin(kTurn * u));
@@ -78,6 +79,9 @@ MeshModel* AddTestMesh(MeshDocument& document) {
   model->updateDataMask(MeshModel::MM_FACEQUALITY | MeshModel::MM_FACECOLOR | MeshModel::MM_WEDGTEXCOORD |
                         MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR);
   FillWithArbitraryValues(*model);
+  for (int v : {0, 1}) vcg::tri::Allocator<CMeshO>::DeleteVertex(mesh, mesh.vert[v]);
+  for (int f : {3, 4, 200}) vcg::tri::Allocator<CMeshO>::DeleteFace(mesh, mesh.face[f]);
+  mesh.Tr.SetScale(2, 3, 1);
   vcg::tri::UpdateBounding<CMeshO>::Box(mesh);
   vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(mesh);
   return model;
