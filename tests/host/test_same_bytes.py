@@ -17,8 +17,7 @@ ms = pymeshlab.MeshSet()
 ms.load_new_mesh(sys.argv[1])
 figures = ms.dcharts_texture_atlas()
 ms.save_current_mesh(sys.argv[2] + '/atlas.ply')
-for ending in ('svg', 'pdf', 'dxf'):
-    ms.dcharts_pattern(size=300.0, output_file=f'{sys.argv[2]}/pattern.{ending}')
+ms.dcharts_pattern(size=300.0, output_file=sys.argv[2] + '/pattern.svg')
 print(sorted((name, value) for name, value in figures.items() if not name.startswith('seconds')))
 """
 
@@ -33,10 +32,11 @@ def everything(folder, mesh, threads):
     return run.stdout, {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
-def test_any_number_of_threads(tmp_path, plush):
-    expected = everything(tmp_path / 'all', plush, '')
-    assert sorted(expected[1]) == ['atlas.ply', 'pattern.dxf', 'pattern.pdf', 'pattern.svg']
+def test_any_number_of_threads(tmp_path, model_file):
+    mesh = model_file('bishop')
+    expected = everything(tmp_path / 'all', mesh, '')
+    assert sorted(expected[1]) == ['atlas.ply', 'pattern.svg']
     for threads in ('1', '2', '8'):
-        printed, files = everything(tmp_path / threads, plush, threads)
+        printed, files = everything(tmp_path / threads, mesh, threads)
         assert printed == expected[0]
         assert [name for name in files if files[name] != expected[1][name]] == [], f'{threads} threads'

@@ -2,7 +2,9 @@
 #include "common/threads.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
+#include <exception>
 #include <new>
 #include <system_error>
 #include <thread>
@@ -18,17 +20,51 @@ int ThreadCount() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+namespace {
+
+// Starts threads and keeps them waiting until all there are have been started. A thread's first exception
+// needs memory of its own, and where there is none the C library ends the program. So each thread takes it
+// before any is at work, from what is let go of just before: so much that it comes from the system and goes
+// back to it.
+class HeldThreads {
+ public:
+  HeldThreads(int count, const std::function<void(bool)>& work) {
+    constexpr std::size_t kReserve = 40 << 20;
+    try {
+      threads_.reserve(static_cast<std::size_t>(count));
+      for (int k = 0; k < count; ++k) {
+        ::operator delete(::operator new(kReserve));
+        threads_.emplace_back([this, &work] {
+          static_cast<void>(std::uncaught_exceptions());
+          ++ready_;
+          while (!go_) std::this_thread::yield();
+          work(false);
+        });
+        while (ready_ <= k) std::this_thread::yield();
+      }
+    } catch (const std::system_error&) {
+    } catch (const std::bad_alloc&) {
+    }
+    go_ = true;
+  }
+  HeldThreads(const HeldThreads&) = delete;
+  HeldThreads& operator=(const HeldThreads&) = delete;
+  ~HeldThreads() {
+    for (std::thread& thread : threads_) thread.join();
+  }
+
+ private:
+  std::atomic<int> ready_{0};
+  std::atomic<bool> go_{false};
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace
+
 // Not OpenMP: where a thread can't be made, its library ends the program.
 void OnThreads(int helpers, const std::function<void(bool)>& work) {
-  std::vector<std::thread> threads;
-  try {
-    threads.reserve(static_cast<std::size_t>(std::max(0, helpers)));
-    for (int k = 0; k < helpers; ++k) threads.emplace_back([&work] { work(false); });
-  } catch (const std::system_error&) {
-  } catch (const std::bad_alloc&) {
-  }
+  const HeldThreads threads(std::max(0, helpers), work);
   work(true);
-  for (std::thread& thread : threads) thread.join();
 }
 
 }  // namespace dcharts
