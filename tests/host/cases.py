@@ -9,18 +9,23 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / 'examples'
 SHARED_MESHES = ROOT.parent / 'shared' / 'meshes'
 
+_KEEP = ('keep_seams', 'crease_angle')
+_SELECTED = ('selected_only',)
 _SEGMENT = ('chart_count', 'max_fitting_error', 'fitting_weight', 'compactness_weight', 'straightness_weight',
-            'max_iterations', 'reassigned_percent', 'seed_candidates', 'seed_percent', 'target_charts', 'max_stretch')
-_FILL = ('max_fitting_error', 'fitting_weight', 'compactness_weight', 'straightness_weight', 'small_hole_percent')
-_STRAIGHTEN = ('straighten_by', 'max_fitting_error')
-_MERGE = ('target_charts', 'max_stretch', 'merge_by', 'seam_weight', 'merge_threshold')
+            'max_iterations', 'reassigned_percent', 'seed_candidates', 'seed_percent', 'target_charts', 'max_stretch',
+            *_KEEP, *_SELECTED)
+_FILL = ('max_fitting_error', 'fitting_weight', 'compactness_weight', 'straightness_weight', 'small_hole_percent',
+         *_KEEP, *_SELECTED)
+_STRAIGHTEN = ('straighten_by', 'max_fitting_error', *_KEEP, *_SELECTED)
+_MERGE = ('target_charts', 'max_stretch', 'merge_by', 'seam_weight', 'merge_threshold', *_KEEP, *_SELECTED)
 _CUT = ('target_charts', 'max_stretch', 'dart_by', 'dart_fitting_error', 'max_dart_percent', 'cut_to_disk',
-        'seam_layer')
+        'seam_layer', *_KEEP, *_SELECTED)
 _PATTERN = ('target_charts', 'max_stretch', 'chart_count', 'max_fitting_error', 'fitting_weight', 'compactness_weight',
             'straightness_weight', 'merge_by', 'seam_weight', 'merge_threshold', 'dart_by', 'dart_fitting_error',
             'max_dart_percent', 'material', 'size', 'units', 'seam_allowance', 'tab_width', 'simplify_tolerance',
-            'fold_angle', 'merge_congruent', 'print_texture', 'page', 'oversize', 'output_file')
-_PARAMETERIZE = ('target_charts', 'max_stretch', 'method', 'texture_size', 'padding', 'rotate', 'density_by')
+            'fold_angle', 'merge_congruent', 'print_texture', 'page', 'oversize', 'output_file', *_KEEP)
+_PARAMETERIZE = ('target_charts', 'max_stretch', 'method', 'texture_size', 'padding', 'rotate', 'density_by',
+                 *_SELECTED)
 
 # display name -> (name in Python, parameters)
 FILTERS = {
@@ -52,6 +57,7 @@ OUT_OF_RANGE = {
     'small_hole_percent': (-1.0, 101.0),
     'target_charts': (-1,),
     'max_stretch': (-0.5, 1001.0),
+    'crease_angle': (-1.0, 181.0),
     'seam_weight': (-0.5, 1001.0),
     'merge_threshold': (-0.1, 4.5),
     'dart_fitting_error': (-0.1, 4.5),
@@ -66,7 +72,7 @@ OUT_OF_RANGE = {
 }
 
 # every value of these is in range
-BOOLEANS = ('cut_to_disk', 'seam_layer', 'rotate', 'merge_congruent', 'print_texture')
+BOOLEANS = ('cut_to_disk', 'seam_layer', 'rotate', 'merge_congruent', 'print_texture', 'keep_seams', 'selected_only')
 
 # files to write
 FILES = ('output_file',)
