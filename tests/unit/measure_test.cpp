@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -159,6 +160,40 @@ TEST(Measure, OverlappingChartsAreCounted) {
   const Report report = MeasureLogged(mesh);
   EXPECT_EQ(report.overlapping_faces, 12);
   EXPECT_NEAR(*report.l2_stretch, 1, 1e-6);
+}
+
+// Pairs of small triangles that touch or are apart, with corners on the grid of the texcoords.
+TEST(Measure, TrianglesThatOnlyTouchDoNotOverlap) {
+  std::mt19937 random(1);
+  SurfaceData mesh;
+  const auto add = [&](const std::array<int, 6>& corners) {
+    const int v = static_cast<int>(mesh.vertices.size());
+    std::array<float, 6> uv;
+    for (size_t k = 0; k < 6; ++k) uv[k] = static_cast<float>(std::ldexp(corners[k], -24));
+    for (size_t i = 0; i < 3; ++i)
+      mesh.vertices.push_back({double(corners[2 * i]), double(corners[2 * i + 1]), 0});
+    mesh.faces.push_back({v, v + 1, v + 2});
+    mesh.wedge_texcoords.push_back(uv);
+  };
+  constexpr int kSize = 10, kPlaces = 200, kFirst = 1 << 22;
+  for (int place = 0; place < kPlaces * kPlaces; ++place) {
+    std::array<int, 6> a, b;
+    for (auto* t : {&a, &b})
+      for (size_t k = 0; k < 6; ++k)
+        (*t)[k] = kFirst + 2 * kSize * (k % 2 == 0 ? place % kPlaces : place / kPlaces) +
+                  static_cast<int>(random() % (kSize + 1));
+    const auto grid = [](const std::array<int, 6>& t) {
+      return test::GridUv{t[0], t[1], t[2], t[3], t[4], t[5]};
+    };
+    if (test::TwiceGridArea(grid(a)) <= 0 || test::TwiceGridArea(grid(b)) <= 0 ||
+        test::InteriorsMeet(grid(a), grid(b)))
+      continue;
+    add(a);
+    add(b);
+  }
+  ASSERT_GT(mesh.faces.size(), 5000u);
+  add({0, 0, 11950000, 0, 0, 1000});  // the box of all texcoords is no power of two
+  EXPECT_EQ(*MeasureLogged(mesh).overlapping_faces, 0);
 }
 
 TEST(Measure, ChartsAreFacesJoinedByEqualTexcoords) {

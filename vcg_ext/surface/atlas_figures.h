@@ -67,7 +67,9 @@ void MeasureAtlas(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, co
   constexpr double kDegenerate = 1e-8;  // of the UV area that a face's surface area should have
   int flipped = 0, degenerate = 0;
   std::vector<GridTriangle> grid(face_count);
-  const double cells = uv_side > 0 ? (1 << 28) / uv_side : 0;
+  // A power of two: texcoords on a grid, as ours are, keep their places exactly, and what touches only
+  // touches.
+  const double cells = uv_side > 0 ? std::exp2(std::floor(std::log2((1 << 28) / uv_side))) : 0;
   for (int f = 0; f < face_count; ++f) {
     const double mirror = chart_area[ids[f]] < 0 ? -1 : 1;
     Eigen::Matrix3d corners;
