@@ -42,6 +42,12 @@ std::vector<Point2> CornersOf(const Box& box) {
   return {corners.begin(), corners.end()};
 }
 
+Eigen::AlignedBox2d ExtentOf(const std::vector<Point2>& corners) {
+  Eigen::AlignedBox2d extent;
+  for (const Point2& p : corners) extent.extend(p);
+  return extent;
+}
+
 }  // namespace
 
 bool Overlap(const std::vector<Point2>& a, const std::vector<Point2>& b) {
@@ -92,25 +98,36 @@ std::vector<Polyline> OutsideBoxes(const Point2& from, const Point2& to, const s
 }
 
 template <class Visit>
-bool LabelSpace::AnyNear(const std::vector<Point2>& corners, Visit visit) const {
-  Point2 low = corners[0], high = corners[0];
-  for (const Point2& p : corners) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
+bool LabelSpace::AnyNear(const Eigen::AlignedBox2d& extent, Visit visit) const {
+  const Point2 low = extent.min(), high = extent.max();
   for (long long x = std::llround(std::floor(low.x() / kCell)); x * kCell <= high.x(); ++x)
     for (long long y = std::llround(std::floor(low.y() / kCell)); y * kCell <= high.y(); ++y)
       if (visit(CellKey(x, y))) return true;
   return false;
 }
 
+// Whether one of the items that are `wanted` overlaps.
+template <class Wanted>
+bool LabelSpace::AnyMeets(const std::vector<Point2>& corners, Wanted wanted) const {
+  const Eigen::AlignedBox2d extent = ExtentOf(corners);
+  const auto meets = [&](int i) {
+    const Item& item = items_[i];
+    return item.extent.intersects(extent) && wanted(item) && Overlap(item.corners, corners);
+  };
+  return AnyNear(extent, [&](long long key) {
+    const auto cell = cells_.find(key);
+    return cell != cells_.end() && std::any_of(cell->second.begin(), cell->second.end(), meets);
+  });
+}
+
 void LabelSpace::Add(std::vector<Point2> corners, int owner) {
   const int index = static_cast<int>(items_.size());
-  AnyNear(corners, [&](long long key) {
+  const Eigen::AlignedBox2d extent = ExtentOf(corners);
+  AnyNear(extent, [&](long long key) {
     cells_[key].push_back(index);
     return false;
   });
-  items_.push_back({std::move(corners), owner});
+  items_.push_back({std::move(corners), extent, owner});
 }
 
 void LabelSpace::AddLine(const Polyline& points, bool closed, int owner) {
@@ -129,21 +146,11 @@ bool LabelSpace::IsFree(const Box& box) const {
   const std::vector<Point2> corners = CornersOf(box);
   for (const Point2& p : corners)
     if ((p - low_).minCoeff() < 0 || (high_ - p).minCoeff() < 0) return false;
-  return !AnyNear(corners, [&](long long key) {
-    const auto cell = cells_.find(key);
-    return cell != cells_.end() && std::any_of(cell->second.begin(), cell->second.end(),
-                                               [&](int i) { return Overlap(items_[i].corners, corners); });
-  });
+  return !AnyMeets(corners, [](const Item&) { return true; });
 }
 
 bool LabelSpace::IsFree(const Point2& from, const Point2& to, int owner) const {
-  const std::vector<Point2> segment = {from, to};
-  return !AnyNear(segment, [&](long long key) {
-    const auto cell = cells_.find(key);
-    return cell != cells_.end() && std::any_of(cell->second.begin(), cell->second.end(), [&](int i) {
-             return (owner < 0 || items_[i].owner != owner) && Overlap(items_[i].corners, segment);
-           });
-  });
+  return !AnyMeets({from, to}, [&](const Item& item) { return owner < 0 || item.owner != owner; });
 }
 
 }  // namespace dcharts

@@ -4,6 +4,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "pattern/drawing/drawing.h"
 #include "pattern/drawing/text_box.h"
 
@@ -28,12 +30,15 @@ class LabelSpace {
  private:
   struct Item {
     std::vector<Point2> corners;  ///< 2 of a segment, 4 of a box
+    Eigen::AlignedBox2d extent;   ///< of the corners
     int owner;
   };
 
   void Add(std::vector<Point2> corners, int owner);
   template <class Visit>
-  bool AnyNear(const std::vector<Point2>& corners, Visit visit) const;
+  bool AnyNear(const Eigen::AlignedBox2d& extent, Visit visit) const;
+  template <class Wanted>
+  bool AnyMeets(const std::vector<Point2>& corners, Wanted wanted) const;
 
   Point2 low_, high_;
   std::vector<Item> items_;
