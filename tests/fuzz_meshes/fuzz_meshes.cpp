@@ -32,7 +32,8 @@ struct Options {
       "FILE]\n"
       "  --cases N    cases to run, from --first N on; --only N is one of them\n"
       "  --seconds S  stop after this time\n"
-      "  --slow S     a case that takes more seconds of processor time is a failure, one that takes twenty "
+      "  --slow S     a case that takes more seconds of processor time is a failure, one that takes a "
+      "hundred "
       "times\n"
       "               as long on the clock ends the run\n"
       "  --off FILE   writes the mesh of the last case begun\n",
@@ -155,7 +156,7 @@ int main(int count, char** arguments) {
   std::filesystem::create_directories(folder);
   std::filesystem::current_path(folder);
   {
-    Watchdog watchdog(20 * options.slow);
+    Watchdog watchdog(100 * options.slow);
     for (unsigned long long number = options.first; number < options.first + options.cases; ++number) {
       if (options.seconds > 0 && Now() - start > options.seconds) break;
       const RandomCase what = dcharts::fuzz::MakeRandomCase(options.seed, number);
