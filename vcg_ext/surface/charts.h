@@ -85,10 +85,10 @@ SeamMask ChartBorders(const SurfaceGraph<MeshType>& surface, const ChartIds& ids
   return seams;
 }
 
-/// 3D length of the seams, each edge once, over the square root of the area.
+/// 3D length of the seams, each edge once, over the square root of the area. Odd edges are always seams.
 template <class MeshType>
 double SeamLength(const SurfaceGraph<MeshType>& surface, const SeamMask& seams) {
-  double length = 0;
+  double length = surface.OddEdgesLength();
   for (int h = 0; h < surface.HalfEdgeCount(); ++h)
     if (surface.Opposite(h) > h && IsSeam(seams, h)) length += surface.Length(h);
   return length / std::sqrt(surface.TotalArea());

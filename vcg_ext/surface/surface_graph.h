@@ -15,8 +15,8 @@
 namespace dcharts {
 
 /// What the stages ask of a mesh, face by face, in flat arrays. READS the mesh's coordinates and face-face
-/// topology. A half-edge h = 3 f + i is edge (i, i+1) of face f. Edges with more than two faces, and edges
-/// whose faces disagree in orientation, count as borders: charts never grow across them.
+/// topology. A half-edge h = 3 f + i is edge (i, i+1) of face f. Odd edges, those with more than two faces or
+/// with faces that disagree in orientation, count as borders: charts never grow across them.
 template <class MeshType>
 class SurfaceGraph {
  public:
@@ -57,6 +57,9 @@ class SurfaceGraph {
       centroid_[f] = (a + b + c) / 3;
       for (int i = 0; i < 3; ++i) length_[3 * f + i] = (Position(f, (i + 1) % 3) - Position(f, i)).norm();
     }
+    for (int f = 0; f < face_count; ++f)
+      for (int i = 0; i < 3; ++i)
+        if (opposite_[3 * f + i] < 0 && IsOddEdge(mesh, f, i)) odd_edges_length_ += length_[3 * f + i];
     for (int h = 0; h < 3 * face_count; ++h)
       if (opposite_[h] >= 0) step_[h] = (centroid_[h / 3] - centroid_[opposite_[h] / 3]).norm();
 
@@ -99,6 +102,7 @@ class SurfaceGraph {
 
   double Area(int face) const { return area_[face]; }
   double TotalArea() const { return total_area_; }
+  double OddEdgesLength() const { return odd_edges_length_; }              ///< each edge once
   const Eigen::Vector3d& Normal(int face) const { return normal_[face]; }  ///< zero for a face without area
   /// Other normals than those of the triangles, one per face: without noise, say.
   void SetNormals(std::vector<Eigen::Vector3d> normals) { normal_ = std::move(normals); }
@@ -113,10 +117,24 @@ class SurfaceGraph {
   }
 
  private:
+  // With faces on it, of which this is the first.
+  static bool IsOddEdge(const MeshType& mesh, int face, int edge) {
+    const auto* other = mesh.face[face].cFFp(edge);
+    int at = mesh.face[face].cFFi(edge);
+    if (other == &mesh.face[face]) return false;
+    while (other != &mesh.face[face]) {
+      if (static_cast<int>(vcg::tri::Index(mesh, other)) < face) return false;
+      const int next = other->cFFi(at);
+      other = other->cFFp(at);
+      at = next;
+    }
+    return true;
+  }
+
   std::vector<int> vertex_, opposite_, ring_start_, ring_;
   std::vector<double> length_, step_, area_;
   std::vector<Eigen::Vector3d> normal_, centroid_, position_;
-  double total_area_ = 0;
+  double total_area_ = 0, odd_edges_length_ = 0;
   std::vector<std::pair<int, int>> parted_;
 };
 
