@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <variant>
@@ -19,6 +20,14 @@ namespace {
 template <class T>
 bool SameArray(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+template <class T>
+std::vector<T> OfSelected(const std::vector<T>& values, const SurfaceData& mesh) {
+  std::vector<T> some;
+  for (std::size_t f = 0; f < std::min(values.size(), mesh.selected.size()); ++f)
+    if (mesh.selected[f] != 0) some.push_back(values[f]);
+  return some;
 }
 
 std::string WrongInFigures(const Report& report) {
@@ -47,8 +56,8 @@ std::string WrongInCut(const SurfaceData& mesh, const SurfaceChange& change) {
   if (change.seams.size() != mesh.faces.size() || change.wedge_texcoords.size() != mesh.faces.size())
     return "arrays of the wrong size\n";
   std::string wrong;
-  if (std::any_of(change.seams.begin(), change.seams.end(), [](int mask) { return mask > 7; }))
-    wrong += "a seam mask above 7\n";
+  if (std::any_of(change.seams.begin(), change.seams.end(), [](int mask) { return mask > 63; }))
+    wrong += "a seam mask above 63\n";
   for (const auto& uv : change.wedge_texcoords)
     for (float x : uv)
       if (!std::isfinite(x)) return wrong + "a texcoord is not finite\n";
@@ -101,6 +110,33 @@ std::string WrongInChange(const FilterSpec& filter, const SurfaceData& mesh, con
   }
 }
 
+SurfaceData SelectedPart(const SurfaceData& mesh) {
+  SurfaceData part;
+  part.vertices = mesh.vertices;
+  part.faces = OfSelected(mesh.faces, mesh);
+  return part;
+}
+
+std::string WrongInSelection(const FilterSpec& filter, const SurfaceData& mesh, const Params& params,
+                             const SurfaceChange& change) {
+  std::string wrong;
+  if (change.written != mesh.selected) wrong += "other faces are written than are selected\n";
+  SurfaceChange part = change;
+  part.chart_ids = OfSelected(change.chart_ids, mesh);
+  part.colors = OfSelected(change.colors, mesh);
+  part.wedge_texcoords = OfSelected(change.wedge_texcoords, mesh);
+  part.seams = OfSelected(change.seams, mesh);
+  std::set<int> numbers(part.chart_ids.begin(), part.chart_ids.end());
+  numbers.erase(-1);
+  for (std::size_t f = 0; f < mesh.face_quality.size(); ++f)
+    if (mesh.selected[f] == 0 && mesh.face_quality[f] == std::floor(mesh.face_quality[f]) &&
+        std::abs(mesh.face_quality[f]) < 1e9 && numbers.count(static_cast<int>(mesh.face_quality[f])) > 0)
+      return wrong + "a chart has the number of a face that is not selected\n";
+  for (int& id : part.chart_ids)
+    if (id >= 0) id = static_cast<int>(std::distance(numbers.begin(), numbers.find(id)));
+  return wrong + WrongInChange(filter, SelectedPart(mesh), params, part);
+}
+
 std::string WrongInPattern(const SurfaceData& mesh, const PatternResult& result) {
   return WrongInFigures(result.report) + test::WrongInPattern(mesh, result.pattern);
 }
@@ -117,13 +153,14 @@ bool SameBytes(const SurfaceData& a, const SurfaceData& b) {
          SameArray(a.vertex_quality, b.vertex_quality) && SameArray(a.face_quality, b.face_quality) &&
          SameArray(a.wedge_texcoords, b.wedge_texcoords) &&
          SameArray(a.wedge_texture_index, b.wedge_texture_index) && SameArray(a.seams, b.seams) &&
-         SameArray(a.corner_colors, b.corner_colors);
+         SameArray(a.selected, b.selected) && SameArray(a.corner_colors, b.corner_colors);
 }
 
 bool SameBytes(const SurfaceChange& a, const SurfaceChange& b) {
-  return SameArray(a.chart_ids, b.chart_ids) && SameArray(a.colors, b.colors) &&
-         SameArray(a.wedge_texcoords, b.wedge_texcoords) && SameArray(a.seams, b.seams) &&
-         a.remove_seams == b.remove_seams && SameArray(a.seam_lines, b.seam_lines);
+  return SameArray(a.written, b.written) && SameArray(a.chart_ids, b.chart_ids) &&
+         SameArray(a.colors, b.colors) && SameArray(a.wedge_texcoords, b.wedge_texcoords) &&
+         SameArray(a.seams, b.seams) && a.remove_seams == b.remove_seams &&
+         SameArray(a.seam_lines, b.seam_lines);
 }
 
 }  // namespace dcharts::fuzz

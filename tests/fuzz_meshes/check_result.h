@@ -19,6 +19,13 @@ bool IsTakeable(const SurfaceData& mesh);
 std::string WrongInChange(const FilterSpec& filter, const SurfaceData& mesh, const Params& params,
                           const SurfaceChange& change);
 
+/// The mesh with its selected faces alone.
+SurfaceData SelectedPart(const SurfaceData& mesh);
+
+/// The same of a filter that worked on the selected faces alone.
+std::string WrongInSelection(const FilterSpec& filter, const SurfaceData& mesh, const Params& params,
+                             const SurfaceChange& change);
+
 std::string WrongInPattern(const SurfaceData& mesh, const PatternResult& result);
 
 /// A sentence for the user, and not about an error in the program.

@@ -101,6 +101,9 @@ void AddAttributes(Random& random, SurfaceData& mesh) {
     for (std::size_t f = 0; f < mesh.faces.size(); ++f)
       mesh.seams.push_back(static_cast<std::uint8_t>(random.Chance(0.3) ? random.Int(0, 255) : 0));
   if (random.Chance(0.2)) AddColors(random, mesh);
+  const double selected = random.Chance(0.1) ? 0 : random.Real(0, 1);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    mesh.selected.push_back(random.Chance(selected) ? 1 : 0);
 }
 
 Params RandomParams(Random& random, const FilterSpec& filter, std::string& text) {

@@ -6,6 +6,7 @@
 #include "check_result.h"
 #include "dcharts.h"
 #include "pattern/drawing/write_pattern.h"
+#include "run_stages.h"
 #include "runner.h"
 #include "thread_count.h"
 
@@ -20,24 +21,12 @@ SurfaceChange Run(FilterId id, const SurfaceData& mesh, const Params& params) {
   return RunFilter(GetFilter(id), &mesh, params, progress);
 }
 
-// As a host that keeps everything as double would hand it on.
-SurfaceData After(SurfaceData mesh, const SurfaceChange& change) {
-  mesh.face_quality.assign(change.chart_ids.begin(), change.chart_ids.end());
-  if (change.remove_seams) mesh.seams.clear();
-  if (!change.seams.empty()) mesh.seams = change.seams;
-  if (!change.wedge_texcoords.empty()) {
-    mesh.wedge_texcoords = change.wedge_texcoords;
-    mesh.wedge_texture_index.assign(mesh.faces.size(), 0);
-  }
-  return mesh;
-}
-
 std::string WrongStageByStage(const RandomCase& what, const SurfaceChange& atlas) {
   SurfaceData mesh = what.mesh;
   SurfaceChange last;
   for (FilterId id : kStages) {
     last = Run(id, mesh, what.params);
-    mesh = After(mesh, last);
+    test::Write(last, test::Kept::kAll, mesh);
   }
   return last.chart_ids == atlas.chart_ids && last.wedge_texcoords == atlas.wedge_texcoords
              ? ""
@@ -72,7 +61,9 @@ std::string RunAndCheck(const RandomCase& what) {
   if (what.filter->id == FilterId::kPattern) return RunPattern(what, progress);
   const SurfaceChange change = RunFilter(*what.filter, &what.mesh, what.params, progress);
   if (cancelled) return "it was cancelled and went on\n";
-  std::string wrong = WrongInChange(*what.filter, what.mesh, what.params, change);
+  std::string wrong = what.params.selected_only
+                          ? WrongInSelection(*what.filter, what.mesh, what.params, change)
+                          : WrongInChange(*what.filter, what.mesh, what.params, change);
   if (what.also == Also::kAgain) wrong += WrongOnOneThread(what, change);
   if (what.also == Also::kStageByStage) wrong += WrongStageByStage(what, change);
   return wrong;
@@ -101,7 +92,8 @@ Outcome RunCase(const RandomCase& what) {
     outcome.refusal = error.what();
     outcome.wrong = WrongInSentence(outcome.refusal);
     // A pattern may be refused for more than its mesh: it has a size and must have room.
-    if (what.filter->id != FilterId::kPattern && IsTakeable(what.mesh) && !ParamsAreRefused(what))
+    if (what.filter->id != FilterId::kPattern && !ParamsAreRefused(what) &&
+        IsTakeable(what.params.selected_only ? SelectedPart(what.mesh) : what.mesh))
       outcome.wrong += "refused without need: " + outcome.refusal + "\n";
   } catch (const std::exception& error) {
     outcome.wrong = std::string("another exception: ") + error.what() + "\n";

@@ -85,7 +85,7 @@ double Quality(ByteReader& bytes) {
 }
 
 void AddAttributes(ByteReader& bytes, SurfaceData& mesh) {
-  enum { kQuality = 1, kVertexQuality = 2, kTexcoords = 4, kSeams = 8, kColors = 16 };
+  enum { kQuality = 1, kVertexQuality = 2, kTexcoords = 4, kSeams = 8, kColors = 16, kSelected = 32 };
   const int which = bytes.Byte();
   if (which & kQuality)
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) mesh.face_quality.push_back(Quality(bytes));
@@ -106,6 +106,8 @@ void AddAttributes(ByteReader& bytes, SurfaceData& mesh) {
     for (auto& corners : mesh.corner_colors)
       for (auto& color : corners) color[0] = bytes.Byte();
   }
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    mesh.selected.push_back((which & kSelected) != 0 ? bytes.Byte() % 2 : 1);
 }
 
 }  // namespace
