@@ -132,9 +132,7 @@ def test_measure_agrees_and_changes_nothing(mesh):
 
 
 def atlas_meshes():
-    shared = sorted((SHARED / 'meshes').glob('*.ply')) if SHARED.exists() else []
-    # The chair is a heap of parts that meet in non-manifold edges.
-    return MESHES + [mesh for mesh in shared if not mesh.stem.startswith('nasty')]
+    return MESHES + (sorted((SHARED / 'meshes').glob('*.ply')) if SHARED.exists() else [])
 
 
 @pytest.mark.parametrize('mesh', atlas_meshes(), ids=lambda path: f'{path.parent.parent.name}-{path.stem}')
