@@ -40,6 +40,7 @@ SurfaceData HalfSelected() {
 SurfaceData Selected(const SurfaceData& mesh) {
   SurfaceData part = mesh;
   part.faces.clear();
+  part.face_quality.clear();
   for (size_t f = 0; f < mesh.faces.size(); ++f)
     if (mesh.selected[f] != 0) part.faces.push_back(mesh.faces[f]);
   part.selected.clear();
@@ -62,7 +63,9 @@ std::vector<T> OfSelected(const std::vector<T>& values, const SurfaceData& mesh)
 }
 
 TEST(SelectedFaces, AreTreatedAsIfThereWereNoOthers) {
-  const SurfaceData mesh = HalfSelected(), part = Selected(mesh);
+  SurfaceData mesh = HalfSelected();
+  mesh.face_quality.assign(mesh.faces.size(), -1);  // no numbers are taken
+  const SurfaceData part = Selected(mesh);
   Progress progress;
   const SurfaceChange alone = TextureAtlas(part, {}, progress);
   const SurfaceChange change = OnSelected(FilterId::kTextureAtlas, mesh);
@@ -89,7 +92,6 @@ TEST(SelectedFaces, GetNumbersThatNoOtherFaceHas) {
 
 TEST(SelectedFaces, StageByStageIsTheSame) {
   SurfaceData mesh = HalfSelected();
-  mesh.face_quality.assign(mesh.faces.size(), 1);
   const SurfaceChange once = OnSelected(FilterId::kTextureAtlas, mesh);
   std::vector<Stage> stages;
   for (const Stage& stage : kAllStages)

@@ -42,11 +42,13 @@ SurfaceData PartOf(const SurfaceData& mesh, const std::vector<int>& faces) {
   return part;
 }
 
-// The smallest numbers that no face outside has, in place of 0, 1, 2...
+// The smallest numbers that no face outside has, in place of 0, 1, 2... Faces without a quality get 0 from the
+// host.
 void Renumber(const SurfaceData& mesh, SurfaceChange& change) {
   std::set<int> others;
-  for (std::size_t f = 0; f < mesh.faces.size() && !mesh.face_quality.empty(); ++f)
-    if (mesh.selected[f] == 0) others.insert(ChartIdOfQuality(mesh.face_quality[f]));
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    if (mesh.selected[f] == 0)
+      others.insert(mesh.face_quality.empty() ? 0 : ChartIdOfQuality(mesh.face_quality[f]));
   const int count = ChartCount(change.chart_ids);
   std::vector<int> number;
   for (int next = 0; static_cast<int>(number.size()) < count; ++next)

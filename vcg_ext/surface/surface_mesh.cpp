@@ -64,7 +64,8 @@ BuiltSurface BuildSurface(const SurfaceData& data, SurfaceMesh& mesh) {
     const vcg::Point3d a = unit_box(data.faces[f][0]);
     area += ((unit_box(data.faces[f][1]) - a) ^ (unit_box(data.faces[f][2]) - a)).Norm() / 2;
   }
-  if (!(area > 1e-30)) throw Error(kZeroArea);
+  constexpr double kRounding = 1e-15;  // what faces without area may seem to have in the unit box
+  if (!(area > kRounding)) throw Error(kZeroArea);
   const double scale = 1 / std::sqrt(area);
 
   mesh.Clear();
