@@ -168,6 +168,7 @@ TEST(PatternClip, KeepsWhatLiesInTheRegion) {
 TEST(PatternTexts, NameLengthsAndPieces) {
   EXPECT_EQ(LengthText(7), "7 mm");
   EXPECT_EQ(LengthText(12.345), "12.3 mm");
+  EXPECT_EQ(LengthText(2.5e20), "2.5e+20 mm");
   EXPECT_EQ(PieceList({2}), "piece 3");
   EXPECT_EQ(PieceList({2, 4, 7}), "pieces 3, 5 and 8");
 }

@@ -2,10 +2,19 @@
 #include "pattern/texts.h"
 
 #include <cmath>
+#include <locale>
+#include <sstream>
 
 namespace dcharts {
 
 std::string LengthText(double millimetres) {
+  constexpr double kLargest = 1e15;  // digits beyond would mean nothing, and soon not fit
+  if (!(std::abs(millimetres) < kLargest)) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text << millimetres << " mm";
+    return text.str();
+  }
   const long long tenths = std::llround(millimetres * 10);
   std::string text = std::to_string(tenths / 10);
   if (tenths % 10 != 0) text += "." + std::to_string(std::abs(tenths % 10));
