@@ -46,8 +46,9 @@ class Parameterizer {
   /// mean; empty = all alike.
   WedgeTexcoords Run(ChartIds& ids, SeamMask& seams, const std::vector<double>& face_density) {
     LayFlatApart(ids, seams);
-    constexpr int kAttempts =
-        4;  // rounding to the texture's grid may show an overlap that wasn't there before
+    // Rounding to the texture's grid may show an overlap that wasn't there before. Each attempt halves the
+    // charts with one.
+    constexpr int kAttempts = 10;
     for (int attempt = 0;; ++attempt) {
       if (attempt > 0) FlattenAll(ids, seams);
       WedgeTexcoords uv;
