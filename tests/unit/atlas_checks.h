@@ -41,21 +41,23 @@ inline double TotalArea(const SurfaceData& mesh) {
   return area;
 }
 
+inline bool HasRepeatedVertex(const std::array<int, 3>& face) {
+  return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
+}
+
 /// Faces with less area than this are without area, to rounding.
 inline double AreaFloor(const SurfaceData& mesh) {
   Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-  for (const auto& face : mesh.faces)
+  for (const auto& face : mesh.faces) {
+    if (HasRepeatedVertex(face)) continue;
     for (int v : face)
       for (size_t d = 0; d < 3; ++d) {
         low[d] = std::min(low[d], mesh.vertices[v][d]);
         high[d] = std::max(high[d], mesh.vertices[v][d]);
       }
+  }
   const Vec3 size = Minus(high, low);
   return 1e-14 * Dot(size, size);
-}
-
-inline bool HasRepeatedVertex(const std::array<int, 3>& face) {
-  return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
 }
 
 /// Per half-edge 3 f + i the half-edge across, where exactly two faces meet in an edge and agree in
