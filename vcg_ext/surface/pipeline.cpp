@@ -35,17 +35,18 @@ namespace {
 class Stage {
  public:
   Stage(const char* name, const char* text, double from, double to, Progress& progress, Report& report)
-      : name_(name), report_(report), start_(std::chrono::steady_clock::now()) {
+      : report_(report), place_(report.stage_seconds.size()), start_(std::chrono::steady_clock::now()) {
+    report.stage_seconds.push_back({name, 0});  // now: a destructor must not need memory
     progress.BeginStage(text, from, to);
   }
   ~Stage() {
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
-    report_.stage_seconds.push_back({name_, passed.count()});
+    if (place_ < report_.stage_seconds.size()) report_.stage_seconds[place_].second = passed.count();
   }
 
  private:
-  const char* name_;
   Report& report_;
+  std::size_t place_;
   std::chrono::steady_clock::time_point start_;
 };
 
