@@ -37,6 +37,15 @@ double WorstStretch(const TestSurface& surface, const ChartIds& ids) {
   return worst;
 }
 
+TEST(RefineBorders, ChartsNotInOnePieceAreFound) {
+  const TestSurface surface(shapes::Grid(6, 6));
+  // 0 has two pieces, 3 no face.
+  const ChartIds ids = surface.Paint([](const auto& p) {
+    return p[0] < 1.0 / 3 ? 0 : p[0] < 2.0 / 3 ? 1 : p[1] < 0.5 ? 0 : 2;
+  });
+  EXPECT_EQ(ChartsNotInOnePiece(*surface, ids, 4), (std::vector<bool>{true, false, false, true}));
+}
+
 TEST(RefineBorders, ARaggedBorderOnAPlaneBecomesShort) {
   const int n = 20;
   const TestSurface surface(shapes::Grid(n, n));

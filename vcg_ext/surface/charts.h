@@ -76,6 +76,26 @@ void SplitAndCompact(const SurfaceGraph<MeshType>& surface, ChartIds& ids, const
     if (ids[f] >= 0) ids[f] = new_id[piece[f]];
 }
 
+/// Which of the charts 0..count-1 have no face, or several pieces.
+template <class MeshType>
+std::vector<bool> ChartsNotInOnePiece(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, int count) {
+  std::vector<bool> not_one(count, true);
+  ChartIds pieces = ids;
+  SplitAndCompact(surface, pieces);
+  std::vector<int> piece_of(count, kUnassigned);
+  for (size_t f = 0; f < ids.size(); ++f) {
+    if (ids[f] < 0) continue;
+    int& piece = piece_of[ids[f]];
+    if (piece == kUnassigned) {
+      piece = pieces[f];
+      not_one[ids[f]] = false;
+    } else if (piece != pieces[f]) {
+      not_one[ids[f]] = true;
+    }
+  }
+  return not_one;
+}
+
 /// Half-edges between faces of different charts, as a seam mask on both sides.
 template <class MeshType>
 SeamMask ChartBorders(const SurfaceGraph<MeshType>& surface, const ChartIds& ids) {

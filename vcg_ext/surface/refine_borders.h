@@ -90,15 +90,26 @@ class BorderRefiner {
       if (now.charts[c].good) pricing_.SetMap(c, now.charts[c].patch, now.charts[c].uv);
     ChartIds ids = now.ids;
     BorderGraphCut<MeshType, MapPricing<MeshType>>(surface_, options, pricing_, progress_).Run(ids);
-    // Charts that came out bad get their faces back, and give back what they got, until all are good.
+    // Charts that came out bad get their faces back, and give back what they got, until all are good. That
+    // may take others to pieces, or all they have.
+    const auto is_any = [](const std::vector<bool>& charts) {
+      return std::find(charts.begin(), charts.end(), true) != charts.end();
+    };
     for (;;) {
-      State next{ids, now.charts};
-      Flatten(Changed(now.ids, ids), next);
-      std::vector<bool> bad(next.charts.size());
-      for (size_t c = 0; c < bad.size(); ++c) bad[c] = now.charts[c].good && !next.charts[c].good;
-      if (std::none_of(bad.begin(), bad.end(), [](bool b) { return b; })) return next;
+      std::vector<bool> bad = ChartsNotInOnePiece(surface_, ids, static_cast<int>(now.charts.size()));
+      if (!is_any(bad)) {
+        State next{ids, now.charts};
+        Flatten(Changed(now.ids, ids), next);
+        for (size_t c = 0; c < bad.size(); ++c) bad[c] = now.charts[c].good && !next.charts[c].good;
+        if (!is_any(bad)) return next;
+      }
+      bool returned = false;
       for (size_t f = 0; f < ids.size(); ++f)
-        if (bad[ids[f]] || bad[now.ids[f]]) ids[f] = now.ids[f];
+        if (ids[f] != now.ids[f] && (bad[ids[f]] || bad[now.ids[f]])) {
+          ids[f] = now.ids[f];
+          returned = true;
+        }
+      if (!returned) return now;
     }
   }
 
