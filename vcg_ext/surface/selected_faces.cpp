@@ -42,8 +42,8 @@ SurfaceData PartOf(const SurfaceData& mesh, const std::vector<int>& faces) {
   return part;
 }
 
-// The smallest numbers that no face outside has, in place of 0, 1, 2... Faces without a quality get 0 from the
-// host.
+// The smallest numbers that no face outside has, in place of 0, 1, 2... Faces without a quality get 0 from
+// the host.
 void Renumber(const SurfaceData& mesh, SurfaceChange& change) {
   std::set<int> others;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
