@@ -123,9 +123,8 @@ Report RunOnDocument(const FilterSpec& filter, const List& list, Document& docum
 
     SurfaceWriter writer(*model, change);
     if (!change.seam_lines.empty())
-      AddLayer<Host>(document, "D-Charts seams", [&](auto& layer) {
-        FillSeamLayer(change.seam_lines, layer.cm);
-      });
+      AddLayer<Host>(document, "D-Charts seams",
+                     [&](auto& layer) { FillSeamLayer(change.seam_lines, layer.cm); });
     if (!change.pieces.faces.empty())
       AddLayer<Host>(document, "D-Charts pattern",
                      [&](auto& layer) { FillPieceLayer(change.pieces, layer); });

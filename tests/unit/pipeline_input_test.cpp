@@ -106,9 +106,9 @@ TEST(Refused, NoArea) {
   // On a line but for rounding.
   const double x = 0.14774253254068487;
   for (const double share : {0.1, 0.25538914642, 0.3, 0.7})
-    ExpectRefused(FromLists({{x, 0, 6e-17}, {0, 0, 1}, {share * x, 0, 1 - share}, {0, 0, 1}},
-                            {{0, 1, 2}, {2, 3, 0}}),
-                  "no area");
+    ExpectRefused(
+        FromLists({{x, 0, 6e-17}, {0, 0, 1}, {share * x, 0, 1 - share}, {0, 0, 1}}, {{0, 1, 2}, {2, 3, 0}}),
+        "no area");
 }
 
 TEST(Refused, FaceWithoutVertex) {

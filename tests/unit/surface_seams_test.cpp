@@ -211,9 +211,21 @@ TEST(ReadSeams, OtherBitsAndBordersOfTheMeshDoNotMatter) {
   s.mesh.seams = s.slit;
   for (int h = 0; h < surface->HalfEdgeCount(); ++h)
     if (surface->Opposite(h) < 0) SetSeam(s.mesh.seams, h);
-  for (auto& bits : s.mesh.seams) bits = static_cast<std::uint8_t>(bits | 0xF0);
+  for (auto& bits : s.mesh.seams) bits = static_cast<std::uint8_t>(bits | 0xC0);
   SeamMask seams;
   EXPECT_TRUE(Workspace(s.mesh).ReadSeams(s.one, seams));
+  EXPECT_EQ(seams, s.slit);
+}
+
+TEST(ReadSeams, KeptBordersBecomeSuchAgain) {
+  Source s = MakeSource();
+  for (std::uint8_t bits : s.slit) s.mesh.seams.push_back(static_cast<std::uint8_t>(bits | bits << 3));
+  Workspace work(s.mesh);
+  SeamMask seams;
+  EXPECT_TRUE(work.ReadSeams(s.one, seams));
+  EXPECT_EQ(seams, SeamMask(s.slit.size(), 0));
+  EXPECT_EQ(work.KeptBorders(), s.slit);
+  work.ReleaseBorders(seams);
   EXPECT_EQ(seams, s.slit);
 }
 
