@@ -13,11 +13,9 @@ namespace dcharts {
 
 namespace {
 
+// Short, as every line counts on a screen with the many parameters of the atlas.
 const char* const kPaper =
-    "<br><br>See:<br>"
-    "<i>Dan Julius, Vladislav Kraevoy, Alla Sheffer</i><br>"
-    "<b>\"D-Charts: Quasi-Developable Mesh Segmentation\"</b><br>"
-    "Computer Graphics Forum (Eurographics 2005), volume 24, issue 3, pages 581-590";
+    "<br><i>Dan Julius, Vladislav Kraevoy, Alla Sheffer</i>: \"D-Charts\", Eurographics 2005";
 
 std::vector<ParamSpec> MakeParams() {
   return {
@@ -359,8 +357,8 @@ std::vector<FilterSpec> MakeFilters() {
        Pick({"target_charts", "max_stretch", "method", "texture_size", "padding", "rotate", "density_by",
              "selected_only"})},
       {FilterId::kTextureAtlas, "D-Charts: Texture Atlas", "dcharts_texture_atlas",
-       "Makes a texture atlas: the six D-Charts stages in one. Writes chart numbers to the face quality, "
-       "colours to the face colour, texture coordinates to the wedges; vertices and faces stay as they are.",
+       "The six D-Charts stages in one. Writes face quality (the chart), face colour and wedge texture "
+       "coordinates.",
        "Sections 2 to 5", atlas, coloring,
        Pick({"chart_count",
              "max_fitting_error",
@@ -392,10 +390,9 @@ std::vector<FilterSpec> MakeFilters() {
              "crease_angle",
              "selected_only"})},
       {FilterId::kPattern, "D-Charts: Pattern", "dcharts_pattern",
-       "Makes a pattern to sew or to fold: flat pieces in mm, at the size of the finished object, with "
-       "seams, "
-       "darts and notation. Adds one layer with the pieces, lying side by side, and writes them to a file. "
-       "The mesh itself stays as it is.",
+       "A pattern to sew or to fold: flat pieces in mm, at the size of the finished object, as a layer and "
+       "as "
+       "a file. The mesh itself stays as it is.",
        "Section 4", kWritesNothing, texture,
        Pick({"material",
              "size",
