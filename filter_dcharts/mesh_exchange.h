@@ -22,8 +22,6 @@ namespace dcharts {
 /// SurfaceData).
 inline const char* const kSeamsAttribute = "dcharts_seams";
 
-inline constexpr int kAllSeamBits = 63;
-
 /// True when the layer is not shown as its coordinates are: it has a matrix.
 template <class Mesh>
 bool HasMatrix(const Mesh& mesh) {
@@ -152,13 +150,11 @@ class SurfaceWriter {
   void Commit() {
     committed_ = true;
     auto seams = FindSeams();
-    std::size_t i = 0;  // index among live faces
+    std::size_t next = 0;  // index among live faces
     for (auto& face : model_.cm.face) {
       if (face.IsD()) continue;
-      if (!change_.written.empty() && change_.written[i] == 0) {
-        ++i;
-        continue;
-      }
+      const std::size_t i = next++;
+      if (!change_.written.empty() && change_.written[i] == 0) continue;
       if (!change_.chart_ids.empty()) face.Q() = static_cast<Scalar>(change_.chart_ids[i]);
       if (!change_.colors.empty()) {
         const auto& rgb = change_.colors[i];
@@ -172,7 +168,6 @@ class SurfaceWriter {
         }
       }
       if (!change_.seams.empty()) seams[face] = static_cast<Scalar>(change_.seams[i]);
-      ++i;
     }
     if (change_.remove_seams) Alloc::DeletePerFaceAttribute(model_.cm, kSeamsAttribute);
   }

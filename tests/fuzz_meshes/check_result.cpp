@@ -13,21 +13,17 @@
 #include "atlas_checks.h"
 #include "pattern_checks.h"
 #include "runner.h"
+#include "selected_part.h"
 
 namespace dcharts::fuzz {
+
+using test::OfSelected;
+
 namespace {
 
 template <class T>
 bool SameArray(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
-
-template <class T>
-std::vector<T> OfSelected(const std::vector<T>& values, const SurfaceData& mesh) {
-  std::vector<T> some;
-  for (std::size_t f = 0; f < std::min(values.size(), mesh.selected.size()); ++f)
-    if (mesh.selected[f] != 0) some.push_back(values[f]);
-  return some;
 }
 
 std::string WrongInFigures(const Report& report) {
@@ -56,8 +52,8 @@ std::string WrongInCut(const SurfaceData& mesh, const SurfaceChange& change) {
   if (change.seams.size() != mesh.faces.size() || change.wedge_texcoords.size() != mesh.faces.size())
     return "arrays of the wrong size\n";
   std::string wrong;
-  if (std::any_of(change.seams.begin(), change.seams.end(), [](int mask) { return mask > 63; }))
-    wrong += "a seam mask above 63\n";
+  if (std::any_of(change.seams.begin(), change.seams.end(), [](int mask) { return mask > kAllSeamBits; }))
+    wrong += "a seam mask with unknown bits\n";
   for (const auto& uv : change.wedge_texcoords)
     for (float x : uv)
       if (!std::isfinite(x)) return wrong + "a texcoord is not finite\n";
@@ -110,13 +106,6 @@ std::string WrongInChange(const FilterSpec& filter, const SurfaceData& mesh, con
   }
 }
 
-SurfaceData SelectedPart(const SurfaceData& mesh) {
-  SurfaceData part;
-  part.vertices = mesh.vertices;
-  part.faces = OfSelected(mesh.faces, mesh);
-  return part;
-}
-
 std::string WrongInSelection(const FilterSpec& filter, const SurfaceData& mesh, const Params& params,
                              const SurfaceChange& change) {
   std::string wrong;
@@ -134,7 +123,7 @@ std::string WrongInSelection(const FilterSpec& filter, const SurfaceData& mesh, 
       return wrong + "a chart has the number of a face that is not selected\n";
   for (int& id : part.chart_ids)
     if (id >= 0) id = static_cast<int>(std::distance(numbers.begin(), numbers.find(id)));
-  return wrong + WrongInChange(filter, SelectedPart(mesh), params, part);
+  return wrong + WrongInChange(filter, test::SelectedPart(mesh), params, part);
 }
 
 std::string WrongInPattern(const SurfaceData& mesh, const PatternResult& result) {

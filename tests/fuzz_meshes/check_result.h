@@ -19,9 +19,6 @@ bool IsTakeable(const SurfaceData& mesh);
 std::string WrongInChange(const FilterSpec& filter, const SurfaceData& mesh, const Params& params,
                           const SurfaceChange& change);
 
-/// The mesh with its selected faces alone.
-SurfaceData SelectedPart(const SurfaceData& mesh);
-
 /// The same of a filter that worked on the selected faces alone.
 std::string WrongInSelection(const FilterSpec& filter, const SurfaceData& mesh, const Params& params,
                              const SurfaceChange& change);

@@ -5,13 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "odd_values.h"
+
 namespace dcharts::fuzz {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kOdd[] = {kNan, kInfinity, -kInfinity, -7,           -1,     -0.0,
-                           0.5,  1e30,      -1e30,      2147483648.0, 1e-320, 1.02};
 
 // The first corner, where there is one.
 std::array<double, 3> Place(const SurfaceData& mesh, std::size_t f) {

@@ -8,6 +8,7 @@
 #include "pattern/drawing/write_pattern.h"
 #include "run_stages.h"
 #include "runner.h"
+#include "selected_part.h"
 #include "thread_count.h"
 
 namespace dcharts::fuzz {
@@ -93,7 +94,7 @@ Outcome RunCase(const RandomCase& what) {
     outcome.wrong = WrongInSentence(outcome.refusal);
     // A pattern may be refused for more than its mesh: it has a size and must have room.
     if (what.filter->id != FilterId::kPattern && !ParamsAreRefused(what) &&
-        IsTakeable(what.params.selected_only ? SelectedPart(what.mesh) : what.mesh))
+        IsTakeable(what.params.selected_only ? test::SelectedPart(what.mesh) : what.mesh))
       outcome.wrong += "refused without need: " + outcome.refusal + "\n";
   } catch (const std::exception& error) {
     outcome.wrong = std::string("another exception: ") + error.what() + "\n";

@@ -7,15 +7,12 @@
 #include <limits>
 
 #include "byte_reader.h"
+#include "odd_values.h"
 #include "random.h"
 #include "random_meshes.h"
 
 namespace dcharts::fuzz {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kOdd[] = {kNan, kInfinity, -kInfinity, -7, -1, -0.0, 0.5, 1e30, -1e30, 2147483648.0, 1e-320};
 
 // Mostly on a small grid, where much coincides, lies in one plane or in one line.
 double Coordinate(ByteReader& bytes) {

@@ -8,6 +8,7 @@ import pytest
 
 from atlas_check import EVALUATOR, SHARED, evaluate, flaws
 from cases import (BOOLEANS, CHOICES, FILES, FILTERS, OUT_OF_RANGE, PYTHON_NAMES, REFUSED_MESHES, STAGES, is_sentence, shipped_meshes)
+from paint import paint
 
 pymeshlab = pytest.importorskip('pymeshlab')
 pytest.importorskip('pymeshlab_dcharts', reason='the package pymeshlab_dcharts is not installed')
@@ -53,9 +54,7 @@ def result(ms):
 def painted(plush):
     """The plush model with quality, colour, texcoords and selection that no filter would write."""
     ms = load(plush)
-    ms.compute_texcoord_parametrization_triangle_trivial_per_wedge(sidedim=0)
-    ms.compute_scalar_by_function_per_face(q='fi * 0.37 - 5')
-    ms.compute_color_by_function_per_face(r='127 + 100 * sin(fi)', g='127 + 100 * cos(fi)', b='17', a='255')
+    paint(ms)
     ms.compute_selection_by_condition_per_face(condselect='sin(fi) > 0.3')
     ms.current_mesh().add_face_custom_scalar_attribute(np.arange(ms.current_mesh().face_number()) % 8.0, 'dcharts_seams')
     assert None not in state(ms).values()

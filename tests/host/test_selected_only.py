@@ -1,20 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """selected_only in the hosts: all faces but the selected ones stay as they are, byte for byte."""
+from xml.sax.saxutils import escape
+
 import numpy as np
 import pytest
 
-from cases import EXAMPLES, STAGES
-from mlx import write_script
+from cases import STAGES
+from mlx import one_filter
+from paint import paint
 
 pymeshlab = pytest.importorskip('pymeshlab')
 pytest.importorskip('pymeshlab_dcharts')
 
 ATLAS = 'dcharts_texture_atlas'
-SELECTION = 'x > 0'
+CONDITION = 'x0 + x1 + x2 > 0'
+NOWHERE = 'x0 > 1e9'
 
 
-def select(ms, condition=SELECTION):
-    ms.compute_selection_by_condition_per_face(condselect=condition.replace('x', '(x0 + x1 + x2)'))
+def select(ms, condition=CONDITION):
+    ms.compute_selection_by_condition_per_face(condselect=condition)
 
 
 @pytest.fixture
@@ -22,9 +26,7 @@ def painted(plush):
     """The plush model with quality, colour and texcoords that no filter would write, half of it selected."""
     ms = pymeshlab.MeshSet()
     ms.load_new_mesh(str(plush))
-    ms.compute_texcoord_parametrization_triangle_trivial_per_wedge(sidedim=0)
-    ms.compute_scalar_by_function_per_face(q='fi * 0.37 - 5')
-    ms.compute_color_by_function_per_face(r='127 + 100 * sin(fi)', g='127 + 100 * cos(fi)', b='17', a='255')
+    paint(ms)
     select(ms)
     return ms
 
@@ -71,7 +73,7 @@ def test_stages_do_the_same(painted):
 
 @pytest.mark.parametrize('name', [ATLAS, *STAGES])
 def test_nothing_selected(painted, name):
-    select(painted, 'x > 1e9')
+    select(painted, NOWHERE)
     before = parts(painted)
     with pytest.raises(pymeshlab.PyMeshLabException, match='no face is selected.*Conditional Face Selection'):
         getattr(painted, name)(selected_only=True)
@@ -79,24 +81,23 @@ def test_nothing_selected(painted, name):
     assert all(before[part].tobytes() == after[part].tobytes() for part in before)
 
 
-def test_meshlabserver(meshlab_2020, screen, plush, tmp_path):
+def test_meshlabserver(server, plush, tmp_path):
     """A file has no selection, so there is nothing selected unless the script selects something."""
-    script = tmp_path / 'selected.mlx'
-    one = write_script(tmp_path / 'one.mlx', 'D-Charts: Texture Atlas', EXAMPLES / 'texture_atlas.mlx', selected_only='true')
+    script = one_filter(tmp_path, 'D-Charts: Texture Atlas', selected_only=True)
+    run, _ = server(script, plush)
+    assert 'no face is selected' in run.stdout, run.stdout[-2000:]
     selecting = ('<filter name="Conditional Face Selection"><Param type="RichString" name="condSelect" '
-                 'value="((x0 + x1 + x2) &gt; 0)"/></filter>')
-    script.write_text(one.read_text().replace('<FilterScript>', '<FilterScript>' + selecting))
-    for used, selects in ((script, True), (one, False)):
-        out = tmp_path / f'{used.stem}.ply'
-        run = meshlab_2020.server(screen, '-i', plush, '-o', out, '-m', 'fq', 'fc', 'wt', '-s', used, folder=tmp_path)
-        assert ('no face is selected' in run.stdout) != selects, run.stdout[-2000:]
+                 f'value="({escape(CONDITION)})"/></filter>')
+    script.write_text(script.read_text().replace('<FilterScript>', '<FilterScript>' + selecting))
+    run, out = server(script, plush)
+    assert 'no face is selected' not in run.stdout, run.stdout[-2000:]
     ms = pymeshlab.MeshSet()
     ms.load_new_mesh(str(plush))
     select(ms)
     selected = ms.current_mesh().face_selection_array().copy()
     ms.dcharts_texture_atlas(selected_only=True)
     expected = ms.current_mesh().face_scalar_array()
-    ms.load_new_mesh(str(tmp_path / 'selected.ply'))
+    ms.load_new_mesh(str(out))
     ids = ms.current_mesh().face_scalar_array()
     assert (ids[selected] == expected[selected]).all()
     assert len(np.unique(ids[~selected])) == 1

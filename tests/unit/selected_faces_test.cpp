@@ -14,6 +14,7 @@
 #include "dcharts.h"
 #include "run_stages.h"
 #include "runner.h"
+#include "selected_part.h"
 #include "shapes.h"
 
 namespace dcharts {
@@ -21,7 +22,9 @@ namespace {
 
 using test::kAllStages;
 using test::Kept;
+using test::OfSelected;
 using test::RunAll;
+using test::SelectedPart;
 using test::Stage;
 
 // A torus of which the faces with x above 0 are selected.
@@ -37,16 +40,6 @@ SurfaceData HalfSelected() {
   return mesh;
 }
 
-SurfaceData Selected(const SurfaceData& mesh) {
-  SurfaceData part = mesh;
-  part.faces.clear();
-  part.face_quality.clear();
-  for (size_t f = 0; f < mesh.faces.size(); ++f)
-    if (mesh.selected[f] != 0) part.faces.push_back(mesh.faces[f]);
-  part.selected.clear();
-  return part;
-}
-
 SurfaceChange OnSelected(FilterId filter, const SurfaceData& mesh) {
   Params params;
   params.selected_only = true;
@@ -54,18 +47,10 @@ SurfaceChange OnSelected(FilterId filter, const SurfaceData& mesh) {
   return RunFilter(GetFilter(filter), &mesh, params, progress);
 }
 
-template <class T>
-std::vector<T> OfSelected(const std::vector<T>& values, const SurfaceData& mesh) {
-  std::vector<T> some;
-  for (size_t f = 0; f < values.size(); ++f)
-    if (mesh.selected[f] != 0) some.push_back(values[f]);
-  return some;
-}
-
 TEST(SelectedFaces, AreTreatedAsIfThereWereNoOthers) {
   SurfaceData mesh = HalfSelected();
   mesh.face_quality.assign(mesh.faces.size(), -1);  // no numbers are taken
-  const SurfaceData part = Selected(mesh);
+  const SurfaceData part = SelectedPart(mesh);
   Progress progress;
   const SurfaceChange alone = TextureAtlas(part, {}, progress);
   const SurfaceChange change = OnSelected(FilterId::kTextureAtlas, mesh);

@@ -123,6 +123,8 @@ struct Params {
   Oversize oversize = Oversize::kTile;
   std::string output_file;  ///< .svg, .pdf or .dxf; empty = no file
 
+  /// There may be lines that charts are kept to.
+  bool KeepsBorders() const { return keep_seams || crease_angle < 180; }
   /// What max_stretch stands for: the bound, infinity where there is none.
   double StretchBound() const {
     return max_stretch > 0 ? std::max(1.0, max_stretch) : std::numeric_limits<double>::infinity();

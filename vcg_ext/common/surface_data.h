@@ -15,6 +15,11 @@ struct TextureImage {
   std::vector<std::uint8_t> rgb;  ///< 3 * width * height; empty: it could not be read
 };
 
+/// A face's seams: bit i = edge (i, i+1) is a seam, bit kKeptSeamShift + i = it is one that charts are kept
+/// to.
+inline constexpr int kSeamBits = 7, kKeptSeamShift = 3,
+                     kAllSeamBits = kSeamBits << kKeptSeamShift | kSeamBits;
+
 /// A triangle mesh as plain arrays: what a host hands over. Only live elements, in the host's order.
 struct SurfaceData {
   std::vector<std::array<double, 3>> vertices;
@@ -23,9 +28,8 @@ struct SurfaceData {
   std::vector<double> face_quality;                   ///< per face, or empty when the host has none
   std::vector<std::array<float, 6>> wedge_texcoords;  ///< per face u0 v0 u1 v1 u2 v2, or empty
   std::vector<std::int16_t> wedge_texture_index;      ///< per face (that of its first corner), or empty
-  std::vector<std::uint8_t> seams;  ///< per face, or empty (no attribute): bit i = edge (i, i+1) is a seam,
-                                    ///< bit 3 + i = it is one that charts are kept to
-  std::vector<char> selected;       ///< per face
+  std::vector<std::uint8_t> seams;                    ///< per face, or empty (no attribute), see kSeamBits
+  std::vector<char> selected;                         ///< per face
 
   // Colours, read only where they are wanted.
   std::vector<TextureImage> textures;  ///< by wedge_texture_index

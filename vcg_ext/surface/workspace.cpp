@@ -10,11 +10,6 @@
 #include "surface/texel_density.h"
 
 namespace dcharts {
-namespace {
-
-constexpr int kKeptShift = 3;  // see SurfaceData::seams
-
-}  // namespace
 
 Workspace::Workspace(const SurfaceData& data)
     : data_(data), built_(BuildSurface(data, mesh_)), surface_(mesh_) {
@@ -22,6 +17,7 @@ Workspace::Workspace(const SurfaceData& data)
 }
 
 void Workspace::KeepBorders(const Params& params, Progress& progress) {
+  if (!params.KeepsBorders()) return;
   SeamMask kept = CreasesAbove(surface_, params.crease_angle);
   if (params.keep_seams) {
     if (HasTexcoords()) {
@@ -35,6 +31,7 @@ void Workspace::KeepBorders(const Params& params, Progress& progress) {
 }
 
 void Workspace::ReleaseBorders(SeamMask& seams) {
+  if (surface_.Parted().empty()) return;
   const SeamMask kept = KeptBorders();
   ReleaseBorders();
   for (size_t f = 0; f < kept.size(); ++f) seams[f] = static_cast<std::uint8_t>(seams[f] | kept[f]);
@@ -99,8 +96,8 @@ bool Workspace::ReadSeams(const ChartIds& ids, SeamMask& seams) {
     SeamMask kept;
     seams.clear();
     for (int f : built_.source_face) {
-      seams.push_back(data_.seams[f] & 7);
-      kept.push_back(data_.seams[f] >> kKeptShift & 7);
+      seams.push_back(data_.seams[f] & kSeamBits);
+      kept.push_back(data_.seams[f] >> kKeptSeamShift & kSeamBits);
     }
     drop_borders();
     if (SeamsAgree(surface_, ids, seams)) {
@@ -165,7 +162,7 @@ void Workspace::WriteCharts(const ChartIds& ids, SurfaceChange& change) const {
 void Workspace::WriteSeams(const SeamMask& seams, const SeamMask& kept, SurfaceChange& change) const {
   change.seams.assign(data_.faces.size(), 0);
   for (int f = 0; f < surface_.FaceCount(); ++f)
-    change.seams[built_.source_face[f]] = static_cast<std::uint8_t>(seams[f] | kept[f] << kKeptShift);
+    change.seams[built_.source_face[f]] = static_cast<std::uint8_t>(seams[f] | kept[f] << kKeptSeamShift);
 }
 
 void Workspace::WriteTexcoords(const WedgeTexcoords& uv, SurfaceChange& change) const {

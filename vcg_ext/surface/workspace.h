@@ -31,7 +31,7 @@ class Workspace {
   void KeepBordersOf(const Workspace& other) { surface_.Part(other.KeptBorders()); }
   /// The kept borders are edges as all others again...
   void ReleaseBorders() { surface_.RejoinParted(); }
-  /// ...and seams.
+  /// ...and seams, but for those that open nothing.
   void ReleaseBorders(SeamMask& seams);
 
   /// The charts that stand in face quality (ChartIdOfQuality), one per connected piece; all faces alike (or

@@ -132,8 +132,7 @@ PatternResult MakePattern(const SurfaceData& mesh, const Params& params, Progres
 
   // A texture and borders to keep lie on the triangles of the user's mesh, and a number of charts that was
   // asked for might not be met by mirrored ones.
-  const bool keeps_borders = params.keep_seams || params.crease_angle < 180;
-  if (!params.print_texture && !keeps_borders) {
+  if (!params.print_texture && !params.KeepsBorders()) {
     base.Coarsen(params.material);
     if (params.target_charts == 0) base.FindMirror();
     base.MakeSymmetric(params.material);
