@@ -133,6 +133,21 @@ TEST(TrialMerge, EveryChartKeepsWithinMaxStretch) {
   }
 }
 
+// Large surfaces are checked on a copy with fewer faces (ChartParts::FinePatch).
+TEST(TrialMerge, ALargeSurfaceMergesAsASmallOneDoesAndKeepsWithinMaxStretch) {
+  const TestSurface small(shapes::Sphere(20)), large(shapes::Sphere(52));
+  Params params;
+  params.max_stretch = 1.05;
+  params.max_dart_percent = 0;  // large surfaces get none while they are merged
+  ChartIds merged = Merged(large, Octants(large), params);
+  ASSERT_FALSE(ChartParts<SurfaceMesh>(*large, merged).FineHasAllFaces());
+  EXPECT_EQ(ChartCount(merged), ChartCount(Merged(small, Octants(small), params)));
+  EXPECT_TRUE(test::ChartsAreWhole(*large, merged));
+  ChartIds cut = merged;
+  for (double l2 : StretchAfterCut(large, cut, params)) EXPECT_LE(l2, params.max_stretch);
+  EXPECT_EQ(cut, merged) << "what holds on the copy holds on the surface";
+}
+
 TEST(TrialMerge, AChartThatIsNotFlatIsSplitFirst) {
   const TestSurface surface(shapes::Sphere(8));
   const ChartIds one(surface->FaceCount(), 0);

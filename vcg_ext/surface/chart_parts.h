@@ -10,29 +10,24 @@
 
 #include "surface/chart_patch.h"
 #include "surface/charts.h"
-#include "surface/coarsen.h"
+#include "surface/coarse_copy.h"
 
 namespace dcharts {
 
-/// The charts that merging starts from, as parts that larger charts are put together from: their faces on the
-/// surface and on a coarse copy of it, their areas, and the lengths of their common borders. Areas and
-/// lengths are those of a surface of area 1.
+/// The charts that merging starts from, as parts that larger charts are put together from: their faces on a
+/// copy of the surface for checks, on a coarser one for trials, their areas, and the lengths of their common
+/// borders. Areas and lengths are those of a surface of area 1.
 template <class MeshType>
 class ChartParts {
  public:
   /// Every face must have a chart. `surface` must outlive the parts.
   ChartParts(const SurfaceGraph<MeshType>& surface, const ChartIds& ids)
-      : part_(ids),
-        fine_faces_(FacesOfCharts(ids)),
-        area_(fine_faces_.size(), 0),
-        borders_(fine_faces_.size()),
+      : face_count_(surface.FaceCount()),
+        area_(ChartCount(ids), 0),
+        borders_(area_.size()),
         unit_(std::sqrt(surface.TotalArea())),
-        no_seams_(surface.FaceCount(), 0),
-        fine_(surface, no_seams_),
-        coarse_surface_(CoarsenCharts(surface, ids, CoarseFaces())),
-        coarse_graph_(*coarse_surface_.mesh),
-        coarse_(coarse_graph_, no_seams_),
-        coarse_faces_(FacesOfCharts(coarse_surface_.ids)) {
+        fine_(surface, ids, kFineFaces),
+        coarse_(fine_.Graph(), fine_.Ids(), std::max(kCoarseFaces, kFacesPerPart * Count())) {
     for (int f = 0; f < surface.FaceCount(); ++f) area_[ids[f]] += surface.Area(f) / surface.TotalArea();
     for (int h = 0; h < surface.HalfEdgeCount(); ++h) {
       const int g = surface.Neighbour(h);
@@ -50,38 +45,32 @@ class ChartParts {
   /// The neighbours of a part and how long the common borders are.
   const std::map<int, double>& Borders(int part) const { return borders_[part]; }
   double Unit() const { return unit_; }  ///< a length of 1 in model units
-  int PartOf(int face) const { return part_[face]; }
-  int FineFaceCount() const { return static_cast<int>(part_.size()); }
-  const std::vector<int>& FineFaces(int part) const { return fine_faces_[part]; }
 
-  ChartPatch CoarsePatch(const std::vector<int>& parts) {
-    return coarse_.Extract(Faces(parts, coarse_faces_));
-  }
-  ChartPatch FinePatch(const std::vector<int>& parts) { return fine_.Extract(Faces(parts, fine_faces_)); }
+  /// Of the copy for trials.
+  ChartPatch CoarsePatch(const std::vector<int>& parts) { return Patch(parts, coarse_); }
+  /// Of the copy for checks: the surface itself, if that isn't large.
+  ChartPatch FinePatch(const std::vector<int>& parts) { return Patch(parts, fine_); }
+  int PartOfFine(int face) const { return fine_.Ids()[face]; }
+  bool FineHasAllFaces() const { return fine_.Graph().FaceCount() == face_count_; }
 
  private:
-  // Enough faces to rank merges by.
-  int CoarseFaces() const { return std::max(3000, 100 * Count()); }
+  // Enough faces to rank merges by, and enough to tell how flat a chart lies.
+  static constexpr int kCoarseFaces = 3000, kFacesPerPart = 100, kFineFaces = 50000;
 
-  static std::vector<int> Faces(const std::vector<int>& parts, const std::vector<std::vector<int>>& of) {
+  static ChartPatch Patch(const std::vector<int>& parts, CoarseCopy& copy) {
     std::vector<int> faces;
-    for (int part : parts) faces.insert(faces.end(), of[part].begin(), of[part].end());
+    for (int part : parts)
+      faces.insert(faces.end(), copy.FacesOf()[part].begin(), copy.FacesOf()[part].end());
     std::sort(faces.begin(), faces.end());
-    return faces;
+    return copy.Extract(faces);
   }
 
-  ChartIds part_;
-  std::vector<std::vector<int>> fine_faces_;
+  int face_count_;
   std::vector<double> area_;
   std::vector<std::map<int, double>> borders_;
   std::set<std::pair<int, int>> kept_apart_;
   double unit_;
-  SeamMask no_seams_;
-  PatchExtractor<MeshType> fine_;
-  CoarseSurface coarse_surface_;
-  SurfaceGraph<SurfaceMesh> coarse_graph_;
-  PatchExtractor<SurfaceMesh> coarse_;
-  std::vector<std::vector<int>> coarse_faces_;
+  CoarseCopy fine_, coarse_;
 };
 
 }  // namespace dcharts

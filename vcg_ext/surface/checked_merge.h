@@ -28,10 +28,8 @@ class CheckedMerger {
   void Run() {
     const double bound = groups_.params.StretchBound();
     Merge(bound);
-    // Every pair takes several flattenings: too long on large meshes.
-    constexpr int kManyFaces = 50000;
-    if (greedy_.MayMergeMore() && bound < kNoBound && groups_.parts.FineFaceCount() <= kManyFaces)
-      MergeWithDarts();
+    // Cut would not find the same darts on the surface as were found on a copy of it.
+    if (greedy_.MayMergeMore() && bound < kNoBound && groups_.parts.FineHasAllFaces()) MergeWithDarts();
     if (groups_.params.target_charts == 0 && bound < kNoBound) Dissolve();
     if (groups_.params.target_charts > 0 && greedy_.MayMergeMore()) Merge(kNoBound);
     Improve();
@@ -136,8 +134,8 @@ class CheckedMerger {
       if (fits[k]) continue;
       failures.push_back({unverified[k], {}});
       for (const auto& [i, j] : overlaps[k]) {
-        const int p = groups_.parts.PartOf(patches[k].faces[i]),
-                  q = groups_.parts.PartOf(patches[k].faces[j]);
+        const int p = groups_.parts.PartOfFine(patches[k].faces[i]),
+                  q = groups_.parts.PartOfFine(patches[k].faces[j]);
         if (p != q) failures.back().overlaps.insert({std::min(p, q), std::max(p, q)});
       }
     }
