@@ -40,7 +40,7 @@ sanitized_unit_tests() {
   # Tests that only run the same code again and compare, and the largest shapes, would take most of the time.
   local again='Invariance.*:Threads.*:Cancelling.*:Pipeline/StageByStage.*:Stages.GiveTheSameBytes*'
   again+=':Shapes/PatternOfShape.HasEveryEdge*:Shapes/PatternOfShape.LiesOnTheSheet*:Shapes/PaperOf*'
-  local large='*/plush*:*/cad_part_paper:PatternSymmetry.PiecesComeInPairs*:Padding.*:CorpusSoup.*:*Pattern/genus_20'
+  local large='*/plush*:TrialMerge.ChartsOfALargeSurface*:*/cad_part_paper:PatternSymmetry.PiecesComeInPairs*:Padding.*:CorpusSoup.*:*Pattern/genus_20'
   GTEST_FILTER="-$again:$large:Shapes.ShippedFilesAreUpToDate" \
     UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 \
     ctest --test-dir "$build" --output-on-failure -j 2 -R 'unit_tests_2025|fuzz_meshes'

@@ -20,13 +20,16 @@ namespace dcharts {
 template <class MeshType>
 class ChartParts {
  public:
+  /// The most faces that checks are made on: enough to tell how flat a chart lies.
+  static constexpr int kFineFaces = 75000;
+
   /// Every face must have a chart. `surface` must outlive the parts.
-  ChartParts(const SurfaceGraph<MeshType>& surface, const ChartIds& ids)
+  ChartParts(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, int fine_faces = kFineFaces)
       : face_count_(surface.FaceCount()),
         area_(ChartCount(ids), 0),
         borders_(area_.size()),
         unit_(std::sqrt(surface.TotalArea())),
-        fine_(surface, ids, kFineFaces),
+        fine_(surface, ids, fine_faces),
         coarse_(fine_.Graph(), fine_.Ids(), std::max(kCoarseFaces, kFacesPerPart * Count())) {
     for (int f = 0; f < surface.FaceCount(); ++f) area_[ids[f]] += surface.Area(f) / surface.TotalArea();
     for (int h = 0; h < surface.HalfEdgeCount(); ++h) {
@@ -51,11 +54,11 @@ class ChartParts {
   /// Of the copy for checks: the surface itself, if that isn't large.
   ChartPatch FinePatch(const std::vector<int>& parts) { return Patch(parts, fine_); }
   int PartOfFine(int face) const { return fine_.Ids()[face]; }
-  bool FineHasAllFaces() const { return fine_.Graph().FaceCount() == face_count_; }
+  int SurfaceFaceCount() const { return face_count_; }
 
  private:
-  // Enough faces to rank merges by, and enough to tell how flat a chart lies.
-  static constexpr int kCoarseFaces = 3000, kFacesPerPart = 100, kFineFaces = 50000;
+  // Enough faces to rank merges by.
+  static constexpr int kCoarseFaces = 3000, kFacesPerPart = 100;
 
   static ChartPatch Patch(const std::vector<int>& parts, CoarseCopy& copy) {
     std::vector<int> faces;

@@ -28,8 +28,12 @@ class CheckedMerger {
   void Run() {
     const double bound = groups_.params.StretchBound();
     Merge(bound);
-    // Cut would not find the same darts on the surface as were found on a copy of it.
-    if (greedy_.MayMergeMore() && bound < kNoBound && groups_.parts.FineHasAllFaces()) MergeWithDarts();
+    // Every pair takes several flattenings: too long on large meshes; and Cut would not find the same darts
+    // on a surface as were found on a copy of it.
+    constexpr int kManyFaces = 50000;
+    static_assert(kManyFaces <= ChartParts<MeshType>::kFineFaces);
+    if (greedy_.MayMergeMore() && bound < kNoBound && groups_.parts.SurfaceFaceCount() <= kManyFaces)
+      MergeWithDarts();
     if (groups_.params.target_charts == 0 && bound < kNoBound) Dissolve();
     if (groups_.params.target_charts > 0 && greedy_.MayMergeMore()) Merge(kNoBound);
     Improve();
