@@ -15,6 +15,7 @@
 #include "pattern/drawing/text_box.h"
 #include "pattern/drawing/tiles.h"
 #include "pattern_by_hand.h"
+#include "planar/polygon.h"
 
 namespace dcharts {
 namespace {
@@ -108,7 +109,7 @@ TEST(PatternDrawing, LabelsAreInTheirPieceOrHaveALeaderAndOverlapNothing) {
       }
       for (const Text& text : group.texts) {
         boxes.push_back(CornersOf(BoxOf(text)));
-        outside += !IsInside(text.at, cut);
+        outside += !IsInside(cut, text.at);
       }
     }
     EXPECT_LE(outside, 3 * leaders) << radius;  // the name is three lines of text with one leader

@@ -16,6 +16,7 @@
 #include "pattern/seam_graph.h"
 #include "pattern/segments.h"
 #include "pattern/simplify_seams.h"
+#include "planar/polygon.h"
 
 namespace dcharts::test {
 

@@ -15,6 +15,7 @@
 #include "pattern/drawing/pdf_pages.h"
 #include "pattern/drawing/sheet.h"
 #include "shapes.h"
+#include "planar/polygon.h"
 
 namespace dcharts {
 namespace {
@@ -99,8 +100,8 @@ TEST_P(PatternSheet, ALabelIsInItsPieceOrHasALeader) {
       if (line.mark == Mark::kCut) cut.push_back(line.points);
       leaders += line.mark == Mark::kLeader;
     }
-    for (const Text& text : group.texts) outside += !IsInside(text.at, cut);
-    const bool name_is_outside = !IsInside(group.texts[0].at, cut);  // three lines of text with one leader
+    for (const Text& text : group.texts) outside += !IsInside(cut, text.at);
+    const bool name_is_outside = !IsInside(cut, group.texts[0].at);  // three lines of text with one leader
     EXPECT_LE(outside, leaders + (name_is_outside ? 2 : 0)) << group.name;
   }
 }

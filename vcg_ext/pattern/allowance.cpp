@@ -9,6 +9,7 @@
 #include "pattern/regions.h"
 #include "pattern/segments.h"
 #include "pattern/texts.h"
+#include "planar/polygon.h"
 
 namespace dcharts {
 namespace {
@@ -69,7 +70,7 @@ void AddAllowances(double allowance, Pattern& pattern) {
     for (size_t h = 1; h < wide.front().size(); ++h) {
       const Polyline& hole = wide.front()[h];
       const bool is_hole = std::any_of(net.begin() + 1, net.end(),
-                                       [&](const Polyline& loop) { return IsInside({loop}, hole.front()); });
+                                       [&](const Polyline& loop) { return IsInside(loop, hole.front()); });
       // What the two legs of a dart enclose is fabric to fold; any other pocket has to be cut out.
       const bool is_pocket = !is_hole && !IsWithinDart(pattern, piece, hole, allowance);
       if (!is_hole && !is_pocket) continue;

@@ -8,7 +8,7 @@
 
 #include "common/pi.h"
 #include "pattern/outline.h"
-#include "pattern/segments.h"
+#include "planar/polygon.h"
 
 namespace dcharts {
 namespace {

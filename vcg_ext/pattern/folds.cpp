@@ -12,6 +12,7 @@
 #include "pattern/half_edges.h"
 #include "pattern/outline.h"
 #include "pattern/segments.h"
+#include "planar/polygon.h"
 
 namespace dcharts {
 namespace {

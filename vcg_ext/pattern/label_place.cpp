@@ -7,6 +7,7 @@
 #include <queue>
 
 #include "pattern/segments.h"
+#include "planar/polygon.h"
 
 namespace dcharts {
 namespace {

@@ -13,7 +13,7 @@
 #include "pattern/chart_cut.h"
 #include "pattern/half_edges.h"
 #include "pattern/seam_graph.h"
-#include "pattern/segments.h"
+#include "planar/polygon.h"
 #include "planar/convex_hull.h"
 
 namespace dcharts {
@@ -216,7 +216,7 @@ class CutFinder {
       if (l == own) continue;
       bool second = SignedArea(outlines[1]) < 0;
       for (const bool part : {false, true})
-        if (SignedArea(outlines[part]) > 0 && IsInside({outlines[part]}, loops_[l].front())) second = part;
+        if (SignedArea(outlines[part]) > 0 && IsInside(outlines[part], loops_[l].front())) second = part;
       parts[second].insert(parts[second].end(), loops_[l].begin(), loops_[l].end());
     }
     return to.along - from.along + CostOfPart(parts[0]) + CostOfPart(parts[1]);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/pi.h"
-#include "pattern/segments.h"
+#include "planar/polygon.h"
 #include "planar/packing.h"
 #include "planar/packing_board.h"
 #include "planar/upright_box.h"

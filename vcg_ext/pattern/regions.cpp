@@ -9,6 +9,7 @@
 #include "common/errors.h"
 #include "common/pi.h"
 #include "pattern/segments.h"
+#include "planar/polygon.h"
 
 namespace dcharts {
 namespace {

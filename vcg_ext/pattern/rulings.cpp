@@ -10,6 +10,7 @@
 #include "pattern/folds.h"
 #include "pattern/outline.h"
 #include "pattern/segments.h"
+#include "planar/polygon.h"
 
 namespace dcharts {
 namespace {

@@ -71,25 +71,4 @@ double DistanceToSegment(const Point2& p, const Point2& a, const Point2& b) {
   return (p - a - t * e).norm();
 }
 
-double SignedArea(const Polyline& loop) {
-  double twice = 0;
-  for (size_t k = 0; k < loop.size(); ++k) {
-    const Point2 p = loop[k] - loop[0], q = loop[(k + 1) % loop.size()] - loop[0];
-    twice += p.x() * q.y() - p.y() * q.x();
-  }
-  return twice / 2;
-}
-
-bool IsInside(const std::vector<Polyline>& loops, const Point2& p) {
-  bool inside = false;
-  for (const Polyline& loop : loops)
-    for (size_t k = 0; k < loop.size(); ++k) {
-      const Point2 &a = loop[k], &b = loop[(k + 1) % loop.size()];
-      if ((a.y() > p.y()) != (b.y() > p.y()) &&
-          p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
-        inside = !inside;
-    }
-  return inside;
-}
-
 }  // namespace dcharts

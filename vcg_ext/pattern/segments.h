@@ -30,10 +30,4 @@ inline bool AnyCross(const std::vector<LineSegment>& segments) { return !Crossin
 /// Distance of a point to the segment from a to b.
 double DistanceToSegment(const Point2& p, const Point2& a, const Point2& b);
 
-/// Signed area of a closed polyline: positive when counterclockwise.
-double SignedArea(const Polyline& loop);
-
-/// Whether p lies in a region with these loops as its boundary (even-odd).
-bool IsInside(const std::vector<Polyline>& loops, const Point2& p);
-
 }  // namespace dcharts

@@ -5,32 +5,11 @@
 #include <map>
 #include <utility>
 
+#include "planar/polygon.h"
+
 namespace dcharts {
-namespace {
 
 using Vec = Eigen::Vector2d;
-
-double SignedArea(const std::vector<Vec>& loop) {
-  double twice = 0;
-  for (size_t k = 0; k < loop.size(); ++k) {
-    const Vec p = loop[k] - loop[0], q = loop[(k + 1) % loop.size()] - loop[0];
-    twice += p.x() * q.y() - p.y() * q.x();
-  }
-  return twice / 2;
-}
-
-bool IsWithin(const std::vector<Vec>& loop, const Vec& p) {
-  bool inside = false;
-  for (size_t k = 0; k < loop.size(); ++k) {
-    const Vec &a = loop[k], &b = loop[(k + 1) % loop.size()];
-    if ((a.y() > p.y()) != (b.y() > p.y()) &&
-        p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()))
-      inside = !inside;
-  }
-  return inside;
-}
-
-}  // namespace
 
 bool OutlineLoops(const Points2& outline, std::vector<std::vector<Vec>>* loops) {
   loops->clear();
@@ -54,7 +33,7 @@ bool OutlineLoops(const Points2& outline, std::vector<std::vector<Vec>>* loops) 
   for (size_t k = 0; k < loops->size(); ++k) {
     bool is_hole = false;
     for (size_t j = 0; j < loops->size(); ++j)
-      if (j != k && IsWithin((*loops)[j], (*loops)[k][0])) is_hole = !is_hole;
+      if (j != k && IsInside((*loops)[j], (*loops)[k][0])) is_hole = !is_hole;
     if ((SignedArea((*loops)[k]) < 0) != is_hole) std::reverse((*loops)[k].begin(), (*loops)[k].end());
   }
   return !loops->empty();

@@ -54,18 +54,6 @@ bool Overlap(const std::vector<Point2>& a, const std::vector<Point2>& b) {
   return !SeparatedByAnEdgeOf(a, b) && !SeparatedByAnEdgeOf(b, a);
 }
 
-bool IsInside(const Point2& p, const std::vector<Polyline>& loops) {
-  bool inside = false;
-  for (const Polyline& loop : loops)
-    for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
-      const Point2 &a = loop[i], &b = loop[j];
-      if ((a.y() > p.y()) != (b.y() > p.y()) &&
-          p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x())
-        inside = !inside;
-    }
-  return inside;
-}
-
 std::vector<Polyline> OutsideBoxes(const Point2& from, const Point2& to, const std::vector<Box>& boxes) {
   std::vector<std::pair<double, double>> hidden;  // ranges of the segment's parameter
   for (const Box& box : boxes) {

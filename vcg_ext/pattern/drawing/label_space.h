@@ -52,7 +52,4 @@ bool Overlap(const std::vector<Point2>& a, const std::vector<Point2>& b);
 /// The parts of a segment that are outside all of the boxes.
 std::vector<Polyline> OutsideBoxes(const Point2& from, const Point2& to, const std::vector<Box>& boxes);
 
-/// The point is within the loops (even-odd).
-bool IsInside(const Point2& p, const std::vector<Polyline>& loops);
-
 }  // namespace dcharts

@@ -7,6 +7,7 @@
 
 #include "common/pi.h"
 #include "pattern/drawing/number_text.h"
+#include "planar/polygon.h"
 
 namespace dcharts {
 
@@ -81,7 +82,7 @@ class Labeller {
 
  private:
   bool IsFreeInPiece(const Box& box) const {
-    return IsInside(box.center, placed_.net) && space_.IsFree(box.Grown(kClear));
+    return IsInside(placed_.net, box.center) && space_.IsFree(box.Grown(kClear));
   }
 
   bool IsFreeOutside(const Box& box) const {
@@ -89,7 +90,7 @@ class Labeller {
     return std::none_of(others_.begin(), others_.end(), [&](const PlacedPiece& other) {
       const Point2& p = box.center;
       return (p.array() >= other.low.array()).all() && (p.array() <= other.high.array()).all() &&
-             IsInside(p, other.cut);
+             IsInside(other.cut, p);
     });
   }
 
