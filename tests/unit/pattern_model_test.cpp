@@ -71,12 +71,8 @@ struct Case {
   bool paper;
 };
 
-class PatternOfShape : public ::testing::TestWithParam<Case> {};
-
-TEST_P(PatternOfShape, CanBeSewnBackToTheModel) {
-  const shapes::Shape shape = shapes::ShapeByName(GetParam().shape);
-  const bool paper = GetParam().paper;
-  const Pattern pattern = PatternOf(shape.mesh, paper ? Paper() : Params());
+void CanBeSewnBackToTheModel(const Pattern& pattern, const shapes::Shape& shape, bool paper) {
+  SCOPED_TRACE("sewn back");
   EXPECT_EQ(EulerOf(pattern), shape.facts.euler);
   EXPECT_LT(pattern.largest_ease, paper ? 0.001 : 0.01);
   double area = 0, model = 0;
@@ -106,21 +102,8 @@ TEST_P(PatternOfShape, CanBeSewnBackToTheModel) {
   EXPECT_NEAR(model / (mesh_area * pattern.scale * pattern.scale), 1, paper ? 1e-9 : 0.002);
 }
 
-TEST(PatternModel, SaysHowManyPointsEachPieceHas) {
-  std::string log;
-  Progress progress({}, [&](const std::string& line) { log += line + "\n"; });
-  Params params = Paper();
-  params.size = 100;
-  const Pattern pattern = MakePattern(shapes::Cube(4), params, progress).pattern;
-  std::string line = "Points of the outlines:";
-  for (const Piece& piece : pattern.pieces)
-    line += (piece.id > 0 ? ", " : " ") + piece.name + " " + std::to_string(piece.loops.front().size());
-  EXPECT_NE(log.find(line + "."), std::string::npos) << log;
-}
-
-TEST_P(PatternOfShape, HasEveryEdgeInASeamAndEveryFaceInAPiece) {
-  const shapes::Shape shape = shapes::ShapeByName(GetParam().shape);
-  const Pattern pattern = PatternOf(shape.mesh, GetParam().paper ? Paper() : Params());
+void HasEveryEdgeInASeamAndEveryFaceInAPiece(const Pattern& pattern) {
+  SCOPED_TRACE("edges and faces");
   std::map<std::array<int, 2>, int> edges;  // by seam and side
   for (const Piece& piece : pattern.pieces)
     for (const OutlineLoop& loop : piece.loops)
@@ -137,9 +120,8 @@ TEST_P(PatternOfShape, HasEveryEdgeInASeamAndEveryFaceInAPiece) {
   }
 }
 
-TEST_P(PatternOfShape, LiesOnTheSheetWithoutOverlap) {
-  const shapes::Shape shape = shapes::ShapeByName(GetParam().shape);
-  const Pattern pattern = PatternOf(shape.mesh, GetParam().paper ? Paper() : Params());
+void LiesOnTheSheetWithoutOverlap(const Pattern& pattern, bool paper) {
+  SCOPED_TRACE("on the sheet");
   std::vector<Region> placed;
   for (const Piece& piece : pattern.pieces) {
     Polyline line;
@@ -152,9 +134,21 @@ TEST_P(PatternOfShape, LiesOnTheSheetWithoutOverlap) {
         for (const Polyline& cut : piece.cut)
           for (size_t k = 0; k < cut.size(); ++k)
             nearest = std::min(nearest, DistanceToSegment(p, cut[k], cut[(k + 1) % cut.size()]));
-        EXPECT_GT(nearest, GetParam().paper ? -1 : 6.99);  // the allowance all around
+        EXPECT_GT(nearest, paper ? -1 : 6.99);  // the allowance all around
       }
   }
+}
+
+class PatternOfShape : public ::testing::TestWithParam<Case> {};
+
+// One test for all three: making the pattern is what takes the time.
+TEST_P(PatternOfShape, SewsTogetherAndLiesOnTheSheet) {
+  const shapes::Shape shape = shapes::ShapeByName(GetParam().shape);
+  const bool paper = GetParam().paper;
+  const Pattern pattern = PatternOf(shape.mesh, paper ? Paper() : Params());
+  CanBeSewnBackToTheModel(pattern, shape, paper);
+  HasEveryEdgeInASeamAndEveryFaceInAPiece(pattern);
+  LiesOnTheSheetWithoutOverlap(pattern, paper);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, PatternOfShape,
@@ -167,6 +161,18 @@ INSTANTIATE_TEST_SUITE_P(Shapes, PatternOfShape,
                          [](const auto& test) {
                            return std::string(test.param.shape) + (test.param.paper ? "_paper" : "_fabric");
                          });
+
+TEST(PatternModel, SaysHowManyPointsEachPieceHas) {
+  std::string log;
+  Progress progress({}, [&](const std::string& line) { log += line + "\n"; });
+  Params params = Paper();
+  params.size = 100;
+  const Pattern pattern = MakePattern(shapes::Cube(4), params, progress).pattern;
+  std::string line = "Points of the outlines:";
+  for (const Piece& piece : pattern.pieces)
+    line += (piece.id > 0 ? ", " : " ") + piece.name + " " + std::to_string(piece.loops.front().size());
+  EXPECT_NE(log.find(line + "."), std::string::npos) << log;
+}
 
 TEST(PatternModel, TheSizeIsTheLongestSideInItsUnit) {
   Params params = Paper();
