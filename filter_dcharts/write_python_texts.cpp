@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Writes what the Python package makes its docstrings of: write_python_texts FILE.json
+/// Writes the table of filters for programs (docstrings of the Python package, scripts/check_mlx.py):
+/// write_python_texts FILE.json
+#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <string>
@@ -34,7 +36,16 @@ std::string ParamObject(const ParamSpec& spec) {
     type = "str";
     value = Quote(ChoiceText(spec, Params()));
   }
-  return "{\"name\": " + Quote(spec.name) + ", \"type\": " + Quote(type) + ", \"default\": " + value +
+  std::string range;
+  if (IsEnum(spec)) {
+    for (const char* choice : spec.choices) range += (range.empty() ? "" : ", ") + Quote(choice);
+    range = ", \"options\": [" + range + "]";
+  } else if (type != "bool") {
+    if (std::isfinite(spec.min))
+      range += std::string(", \"") + (spec.min_exclusive ? "above" : "min") + "\": " + NumberText(spec.min);
+    if (std::isfinite(spec.max)) range += ", \"max\": " + NumberText(spec.max);
+  }
+  return "{\"name\": " + Quote(spec.name) + ", \"type\": " + Quote(type) + ", \"default\": " + value + range +
          ", \"text\": " + Quote(TooltipText(spec)) + "}";
 }
 

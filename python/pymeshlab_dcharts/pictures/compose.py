@@ -144,25 +144,40 @@ def charts_picture(model, title, size=680):
     return _page(parts, title)
 
 
-def atlas_picture(model, title, cells=32, size=900):
-    """The atlas with its charts in their colours under a checker, and the model with the same checker. Returns a PIL image."""
+def atlas_picture(model, title, cells=32, size=900, texture=None):
+    """The atlas and the model with it: the charts in their colours under a checker, or with a texture.
+
+    cells: fields of the checker along a side; size: of each picture, in pixels; texture: a PIL image that lies on the
+    atlas, or None. Returns a PIL image.
+    """
     big = size * SUPERSAMPLING
     points = model.uvs.reshape(-1, 2) * [big, -big] + [0, big]
     seen = rasterize(points, np.zeros(len(points)), np.arange(len(points)).reshape(-1, 3), big, big)
-    atlas = seen.spread(_checkered(model, seen, cells, 0.80), DESK)
+
+    def surface(seen, shade):
+        return _checkered(model, seen, cells, shade) if texture is None else _textured(model, seen, texture)
+
+    atlas = seen.spread(surface(seen, 0.80), DESK)
     face, corner = model.seam_corners
     corners = points.reshape(-1, 3, 2)
     lines = np.zeros(seen.shape, bool)
     stamp_lines(lines, corners[face, corner], corners[face, (corner + 1) % 3], 0.9 * SUPERSAMPLING)
     atlas[lines] = INK
 
-    def textured(seen_from_view):
-        return _checkered(model, seen_from_view, cells, 0.62)
-
-    return _page([shrink(atlas, SUPERSAMPLING), model.draw(model.views[0], size, size, textured, 2.2)], title)
+    on_model = model.draw(model.views[0], size, size, lambda seen: surface(seen, 0.62), 2.2)
+    return _page([shrink(atlas, SUPERSAMPLING), on_model], title)
 
 
 def _checkered(model, seen, cells, shade):
     """The charts' colours, darker in every other field of the checker."""
     fields = checker(seen.interpolate(model.uvs), cells)
     return model.colors[seen.face] * np.where(fields > 0, shade, 1.0).astype(np.float32)[:, None]
+
+
+def _textured(model, seen, texture):
+    """The texture's colours, of the nearest texel."""
+    texels = np.asarray(texture.convert("RGB"), np.float32) / 255
+    uv = seen.interpolate(model.uvs)
+    size = np.array(texels.shape[1::-1])
+    at = np.clip((uv * [1, -1] + [0, 1]) * size, 0, size - 1).astype(int)
+    return texels[at[:, 1], at[:, 0]]
