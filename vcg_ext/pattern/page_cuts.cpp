@@ -2,6 +2,7 @@
 #include "pattern/page_cuts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -19,64 +20,87 @@
 namespace dcharts {
 namespace {
 
-constexpr int kTurns = 36;  // of half a turn
-
-/// What points take when they are turned by a step.
-struct Turned {
-  Point2 size{0, 0};  ///< of their box
-  int pages = 0;      ///< that their hull goes onto, in rows as high as a page
-};
-
-int PagesOfRows(const Polyline& hull, const Point2& low, const Point2& high, const Point2& page) {
-  const int rows =
-      std::max(1, static_cast<int>(std::min(1000.0, std::ceil((high.y() - low.y()) / page.y()))));
-  double pages = 0;
-  for (int row = 0; row < rows; ++row) {
-    const double bottom = low.y() + row * page.y(), top = bottom + page.y();
-    double left = high.x(), right = low.x();
-    const auto take = [&](double x) {
-      left = std::min(left, x);
-      right = std::max(right, x);
-    };
-    for (size_t k = 0; k < hull.size(); ++k) {
-      const Point2 &a = hull[k], &b = hull[(k + 1) % hull.size()];
-      if (a.y() >= bottom && a.y() <= top) take(a.x());
-      for (const double y : {bottom, top})
-        if ((a.y() < y) != (b.y() < y)) take(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+/// Points turned by steps of half a turn; their hull is all that matters.
+class Turns {
+ public:
+  explicit Turns(const Polyline& points) : hull_(ConvexHull(points)) {
+    for (int t = 0; t < kTurns; ++t) {
+      Point2 low = Point2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+      for (const Point2& p : hull_) {
+        const Point2 turned = Turned(p, t);
+        low = low.cwiseMin(turned);
+        high = high.cwiseMax(turned);
+      }
+      low_.push_back(low);
+      size_.emplace_back(high - low);
     }
-    pages += std::max(1.0, std::ceil((right - left) / page.x()));
   }
-  return static_cast<int>(std::min(pages, 1e6));
-}
 
-std::vector<Turned> AllTurns(const Polyline& points, const Point2& page) {
-  const Polyline hull = ConvexHull(points);
-  std::vector<Turned> turns;
-  for (int t = 0; t < kTurns; ++t) {
-    const double angle = kPi * t / kTurns, c = std::cos(angle), s = std::sin(angle);
-    Point2 low = Point2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  double Width() const {
+    double width = std::numeric_limits<double>::infinity();
+    for (const Point2& size : size_) width = std::min(width, size.minCoeff());
+    return width;
+  }
+
+  /// The direction in which the points reach farthest, radians.
+  double LongSide() const {
+    int longest = 0;
+    for (int t = 1; t < kTurns; ++t)
+      if (size_[t].x() > size_[longest].x()) longest = t;
+    return -kPi * longest / kTurns;
+  }
+
+  /// Pages that the points go onto, in rows as high as a page, at the best turn.
+  int FewestPages(const Point2& page) const {
+    int fewest = static_cast<int>(kMostPages);
+    for (int t = 0; t < kTurns; ++t) fewest = PagesOfRows(t, page, fewest);
+    return fewest;
+  }
+
+ private:
+  static constexpr int kTurns = 36;
+  static constexpr double kMostPages = 1e6;
+
+  static Point2 Turned(const Point2& p, int t) {
+    static const std::array<Point2, kTurns> turns = [] {
+      std::array<Point2, kTurns> made;
+      for (int k = 0; k < kTurns; ++k) made[k] = {std::cos(kPi * k / kTurns), std::sin(kPi * k / kTurns)};
+      return made;
+    }();
+    const double c = turns[t].x(), s = turns[t].y();
+    return {c * p.x() - s * p.y(), s * p.x() + c * p.y()};
+  }
+
+  // Pages at a turn, or `fewest` when there are not less.
+  int PagesOfRows(int turn, const Point2& page, int fewest) const {
+    const Point2 low = low_[turn], high = low + size_[turn];
+    const int rows = std::max(1, static_cast<int>(std::min(1000.0, std::ceil(size_[turn].y() / page.y()))));
+    // No row is without a page.
+    if (rows >= fewest) return fewest;
     Polyline turned;
-    for (const Point2& p : hull) {
-      turned.emplace_back(c * p.x() - s * p.y(), s * p.x() + c * p.y());
-      low = low.cwiseMin(turned.back());
-      high = high.cwiseMax(turned.back());
+    for (const Point2& p : hull_) turned.push_back(Turned(p, turn));
+    double pages = 0;
+    for (int row = 0; row < rows && pages < fewest; ++row) {
+      const double bottom = low.y() + row * page.y(), top = bottom + page.y();
+      double left = high.x(), right = low.x();
+      const auto take = [&](double x) {
+        left = std::min(left, x);
+        right = std::max(right, x);
+      };
+      for (size_t k = 0; k < turned.size(); ++k) {
+        const Point2 &a = turned[k], &b = turned[k + 1 < turned.size() ? k + 1 : 0];
+        if (a.y() >= bottom && a.y() <= top) take(a.x());
+        for (const double y : {bottom, top})
+          if ((a.y() < y) != (b.y() < y)) take(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+      }
+      pages += std::max(1.0, std::ceil((right - left) / page.x()));
     }
-    turns.push_back({high - low, PagesOfRows(turned, low, high, page)});
+    return pages < fewest ? static_cast<int>(pages) : fewest;
   }
-  return turns;
-}
 
-int FewestPages(const std::vector<Turned>& turns) {
-  int fewest = turns.front().pages;
-  for (const Turned& turn : turns) fewest = std::min(fewest, turn.pages);
-  return fewest;
-}
-
-double Width(const std::vector<Turned>& turns) {
-  double width = std::numeric_limits<double>::infinity();
-  for (const Turned& turn : turns) width = std::min(width, turn.size.minCoeff());
-  return width;
-}
+  Polyline hull_;
+  std::vector<Point2> low_, size_;
+};
 
 /// Looks for the best straight cut of one chart.
 class CutFinder {
@@ -105,7 +129,7 @@ class CutFinder {
       }
     }
     constexpr double kLeastWidth = 8;  // mm; of a narrower chart half of its width
-    least_width_ = std::min(kLeastWidth, Width(AllTurns(Points(), page)) / 2);
+    least_width_ = std::min(kLeastWidth, Turns(Points()).Width() / 2);
   }
 
   struct Cut {
@@ -117,7 +141,7 @@ class CutFinder {
   Cut Best() const {
     constexpr int kDirections = 24, kPlaces = 24;
     const Polyline points = Points();
-    const double turn = LongSide(points);
+    const double turn = Turns(points).LongSide();
     Cut best;
     for (int d = 0; d < kDirections; ++d) {
       PlaneLine line;
@@ -153,15 +177,6 @@ class CutFinder {
     return points;
   }
 
-  // The direction in which the points reach farthest, radians.
-  double LongSide(const Polyline& points) const {
-    const std::vector<Turned> turns = AllTurns(points, page_);
-    int longest = 0;
-    for (int t = 1; t < kTurns; ++t)
-      if (turns[t].size.x() > turns[longest].size.x()) longest = t;
-    return -kPi * longest / kTurns;
-  }
-
   void Try(const PlaneLine& line, Cut& best) const {
     const std::vector<BoundaryCrossing> crossings = CrossingsOf(chart_, boundary_, line);
     for (const BoundaryCrossing& from : crossings) {
@@ -171,8 +186,11 @@ class CutFinder {
                                    [&](const BoundaryCrossing& c) { return c.half_edge == exit; });
       if (to == crossings.end() || to->along <= from.along) continue;
       const bool opens_hole = place_[from.half_edge].first != place_[exit].first;
-      const double cost = (opens_hole ? CostOfAll(line, crossings) : Cost(line, from, *to)) +
-                          CostOfEnd(line, from) + CostOfEnd(line, *to);
+      const double ends = CostOfEnd(line, from) + CostOfEnd(line, *to);
+      // Most cuts are worse than the best even if either part would go onto a page.
+      const double length = opens_hole ? 0 : to->along - from.along;
+      if (ends + length + 2 * CostOfPages(1) >= best.cost) continue;
+      const double cost = (opens_hole ? CostOfAll(line, crossings) : Cost(line, from, *to)) + ends;
       if (cost < best.cost) best = {line, from, *to, cost};
     }
   }
@@ -187,13 +205,20 @@ class CutFinder {
     return 2 * page_.minCoeff() * (1 - nearest / kClear);
   }
 
-  // In mm of seam: a page less is worth a long seam. Nobody wants slivers.
+  // In mm of seam: a page less is worth a long seam.
+  double CostOfPages(double pages) const {
+    constexpr double kPage = 2.5;
+    return kPage * page_.minCoeff() * pages;
+  }
+
+  // Nobody wants slivers.
   double CostOfPart(const Polyline& part) const {
-    constexpr double kPage = 2.5, kNarrow = 0.35;
-    const std::vector<Turned> turns = AllTurns(part, page_);
-    if (Width(turns) < least_width_) return std::numeric_limits<double>::infinity();
-    const double sliver = std::max(0.0, 1 - Width(turns) / (kNarrow * page_.minCoeff()));
-    return kPage * page_.minCoeff() * (FewestPages(turns) + sliver);
+    constexpr double kNarrow = 0.35;
+    const Turns turns(part);
+    const double width = turns.Width();
+    if (width < least_width_) return std::numeric_limits<double>::infinity();
+    const double sliver = std::max(0.0, 1 - width / (kNarrow * page_.minCoeff()));
+    return CostOfPages(turns.FewestPages(page_) + sliver);
   }
 
   // Of a cut from a loop to itself, which parts the chart.
@@ -246,7 +271,7 @@ class CutFinder {
 
 }  // namespace
 
-int PagesFor(const Polyline& points, const Point2& page) { return FewestPages(AllTurns(points, page)); }
+int PagesFor(const Polyline& points, const Point2& page) { return Turns(points).FewestPages(page); }
 
 int PagesFor(const FlatChart& chart, const Point2& page) {
   Polyline points;
