@@ -102,6 +102,15 @@ class Turns {
   std::vector<Point2> low_, size_;
 };
 
+/// Whether `at` lies on the way from one point to the other.
+bool IsStraight(const Point2& from, const Point2& at, const Point2& to) {
+  constexpr double kOff = 1e-9;
+  const Point2 way = to - from, part = at - from;
+  const double length = way.squaredNorm();
+  return std::abs(way.x() * part.y() - way.y() * part.x()) <= kOff * length && way.dot(part) > 0 &&
+         way.dot(part) < length;
+}
+
 /// Looks for the best straight cut of one chart.
 class CutFinder {
  public:
@@ -122,10 +131,13 @@ class CutFinder {
       loops_.emplace_back();
       for (int h = first; !done[h]; h = around.leaving[EndOf(chart, h)]) {
         done[h] = 1;
-        place_[h] = {static_cast<int>(loops_.size()) - 1, static_cast<int>(loops_.back().size())};
-        loops_.back().push_back(chart.uv.row(StartOf(chart, h)).transpose());
-        if (places[h].seam != places[around.arriving[StartOf(chart, h)]].seam)
-          seam_ends_.push_back(loops_.back().back());
+        Polyline& loop = loops_.back();
+        const Point2 at = chart.uv.row(StartOf(chart, h)).transpose();
+        // Cuts leave hundreds of points along straight lines.
+        if (loop.empty() || !IsStraight(loop.back(), at, chart.uv.row(EndOf(chart, h)).transpose()))
+          loop.push_back(at);
+        place_[h] = {static_cast<int>(loops_.size()) - 1, static_cast<int>(loop.size()) - 1};
+        if (places[h].seam != places[around.arriving[StartOf(chart, h)]].seam) seam_ends_.push_back(at);
       }
     }
     constexpr double kLeastWidth = 8;  // mm; of a narrower chart half of its width
@@ -266,7 +278,7 @@ class CutFinder {
   std::vector<Polyline> loops_;
   Polyline seam_ends_;
   double least_width_ = 0;                  // of a part, mm
-  std::vector<std::pair<int, int>> place_;  // per boundary half-edge: its loop, and where in it
+  std::vector<std::pair<int, int>> place_;  // per boundary half-edge: its loop, and the point before it there
 };
 
 }  // namespace
