@@ -216,6 +216,28 @@ TEST(PatternEqualSeams, BoundaryEdgesGetTheirLengthOnTheModel) {
   }
 }
 
+// A needle's point between two folded faces, from the fuzzer: with equal seams the outline lay upside down,
+// and nowhere crossed itself.
+TEST(PatternEqualSeams, AnOutlineIsNotTurnedOver) {
+  FlatChart chart;
+  chart.mesh.positions.resize(5, 3);
+  chart.mesh.positions << -2.02878, 2.79859, 5.11485, 6.94079, 4.6398, 3.67285, -2.02878, 4.94584, 13.8936,
+      -2.02878, -0.171323, -7.02732, 5.39673, -1.17153, 0.554394;
+  chart.mesh.triangles.resize(4, 3);
+  chart.mesh.triangles << 0, 1, 2, 0, 2, 3, 3, 2, 4, 1, 4, 2;
+  chart.uv.resize(5, 2);
+  chart.uv << 3.04457, 0.00436043, -5.55249, 4.07424, 0, 0, 23.4627, 0, -5.00047, -10.7259;
+  const std::vector<int> boundary = {0, 5, 8, 9};
+  EXPECT_FALSE(EqualizeSeams(boundary, KeepInside::kAngles, {}, chart).whole);
+  double area = 0;
+  for (Eigen::Index t = 0; t < chart.mesh.triangles.rows(); ++t) {
+    const auto corner = [&](int k) -> Point2 { return chart.uv.row(chart.mesh.triangles(t, k)).transpose(); };
+    area += Orient(corner(0), corner(1), corner(2)) / 2;
+  }
+  EXPECT_GT(area, 0);
+  EXPECT_TRUE(CrossingEdges(chart, boundary).empty());
+}
+
 TEST(PatternEqualSeams, AFlatChartStaysAsItIs) {
   FlatCharts charts = TwoHalves();
   const Points2 before = charts.charts[0].uv;

@@ -203,6 +203,15 @@ class BoundaryFit {
   bool analyzed_ = false;
 };
 
+double FlatArea(const FlatChart& chart) {
+  double area = 0;
+  for (Eigen::Index t = 0; t < chart.mesh.triangles.rows(); ++t) {
+    const auto corner = [&](int k) -> Point2 { return chart.uv.row(chart.mesh.triangles(t, k)).transpose(); };
+    area += Orient(corner(0), corner(1), corner(2)) / 2;
+  }
+  return area;
+}
+
 }  // namespace
 
 std::vector<int> CrossingEdges(const FlatChart& chart, const std::vector<int>& boundary) {
@@ -232,10 +241,12 @@ EqualSeams EqualizeSeams(const std::vector<int>& boundary, KeepInside keep, cons
   EqualSeams result;
   result.uv.resize(start.rows(), 2);
   for (Eigen::Index v = 0; v < start.rows(); ++v) result.uv.row(v) = x.segment<2>(2 * v).transpose() + middle;
+  constexpr double kLeastShare = 0.1;  // of the area: an outline may turn over without crossing itself
+  const double least_area = kLeastShare * FlatArea(chart);
   for (const double share : {1.0, 0.75, 0.5, 0.25, 0.0}) {
     chart.uv = (1 - share) * start + share * result.uv;
     result.whole = share == 1;
-    if (CrossingEdges(chart, boundary).empty()) break;
+    if (FlatArea(chart) >= least_area && CrossingEdges(chart, boundary).empty()) break;
   }
   for (Eigen::Index v = 0; v < start.rows(); ++v) x.segment<2>(2 * v) = chart.uv.row(v).transpose();
   result.worst = fit.WorstError(x);

@@ -16,7 +16,7 @@ enum class KeepInside {
 
 struct EqualSeams {
   double worst = 0;   ///< largest relative error of a boundary edge's length in `chart`
-  bool whole = true;  ///< false: the outline would cross itself, so it went only part of the way
+  bool whole = true;  ///< false: the outline would cross itself or turn over, so it went only part of the way
   Points2 uv;         ///< where the vertices would be then
 };
 
@@ -24,7 +24,7 @@ struct EqualSeams {
 /// sides of each seam are equally long. With kAngles it becomes, of all conformal maps, the one with scale 1
 /// along the boundary (which has the least distortion of areas; Springborn, Schroeder, Pinkall 2008).
 /// Gauss-Newton on the energy of the inside with stiff springs along the boundary. `boundary`: the half-edges
-/// of the boundary. Should the outline cross itself afterwards, it goes as far that way as is free of that.
+/// of the boundary. Should the outline cross itself or turn over, it goes as far that way as is free of that.
 /// `poll` may throw.
 EqualSeams EqualizeSeams(const std::vector<int>& boundary, KeepInside keep, const std::function<void()>& poll,
                          FlatChart& chart);
