@@ -19,7 +19,7 @@ for host in pymeshlab 2025 2020; do
     fail "The plugin for $host was not built; the messages above say which variable to set."
 done
 ensure_plugin
-ensure_venv pytest numpy scipy Pillow ezdxf matplotlib ipykernel nbclient clang-format==14.0.6
+ensure_venv pytest pytest-xdist numpy scipy Pillow ezdxf matplotlib ipykernel nbclient clang-format==14.0.6
 
 failed=()
 step() {
@@ -56,5 +56,5 @@ step "unit tests and fuzzer with sanitizers" sanitized_unit_tests
 # Last, so that the runner's own summary is the last line.
 [ ${#failed[@]} = 0 ] || printf 'FAILED: %s\n' "${failed[@]}" >&2
 step "tests in the hosts" env DCHARTS_SCREENSHOTS="$repo/out/screenshots" DCHARTS_BUILD="$build" \
-  "$python" -m pytest -q -rs --durations=5 -p no:cacheprovider tests/host
+  "$python" -m pytest -q -rs --durations=5 -n 2 --dist loadscope -p no:cacheprovider tests/host
 [ ${#failed[@]} = 0 ]

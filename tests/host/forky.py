@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """MeshLab 2025.07 as Debian forky has it, in a folder of its own: made once, by root, with a network; about a minute."""
+import contextlib
+import fcntl
 import os
 import pathlib
 import shutil
@@ -53,8 +55,22 @@ def _install(root):
     _run('installing MeshLab 2025.07', inside(root, 'env', 'DEBIAN_FRONTEND=noninteractive', 'sh', '-c', install))
 
 
+@contextlib.contextmanager
+def _alone():
+    """One process at a time: tests run in two."""
+    CACHE.mkdir(parents=True, exist_ok=True)
+    with open(CACHE / 'forky-meshlab.lock', 'w') as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+
+
 def root_folder():
     """The folder, made when it is not there. Raises NotHere with the reason."""
+    with _alone():
+        return _made_folder()
+
+
+def _made_folder():
     if (ROOT_FOLDER / PLUGINS).exists():
         if not (ROOT_FOLDER / LAST_LIBRARY).exists():  # made when fewer packages were needed
             _install(ROOT_FOLDER)
@@ -64,7 +80,6 @@ def root_folder():
     if not shutil.which('debootstrap'):
         raise NotHere('debootstrap is not installed (Debian 12: apt-get install debootstrap)')
     mirror = _mirror()
-    CACHE.mkdir(parents=True, exist_ok=True)
     new = CACHE / 'forky-meshlab.new'
     shutil.rmtree(new, ignore_errors=True)
     # bookworm's debootstrap does not know forky; sid's way of doing it fits.
