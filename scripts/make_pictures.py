@@ -4,8 +4,8 @@
 
     python scripts/make_pictures.py [FOLDER] [--only NAME ...]
 
-Needs the package with what its pictures need (pip install ".[notebook]"). Takes about a minute. FOLDER is docs/images when
-it is not given; NAME is a picture's name without .png. Prints each file with its size."""
+Needs the package with what its pictures need (pip install ".[notebook]"). Takes about a minute. FOLDER is docs/images
+when it is not given; NAME is a picture's name without .png. Prints each file with its size."""
 
 import argparse
 import functools
@@ -43,7 +43,8 @@ def opened(name):
 def model_of(ms):
     mesh = ms.current_mesh()
     uvs = mesh.wedge_tex_coord_matrix() if mesh.has_wedge_tex_coord() else None
-    return Model(mesh.vertex_matrix(), mesh.face_matrix(), mesh.face_scalar_array(), uvs, mesh.face_color_matrix()[:, :3])
+    return Model(mesh.vertex_matrix(), mesh.face_matrix(), mesh.face_scalar_array(), uvs,
+                 mesh.face_color_matrix()[:, :3])
 
 
 @functools.lru_cache(maxsize=None)
@@ -134,7 +135,7 @@ PICTURES = {
 
 
 def save(picture, path):
-    """With a palette of 256 colours, which is less than half the size. Shades are dithered, else one would see steps."""
+    """With a palette of 256 colours: less than half the size. Shades are dithered, else one would see steps."""
     picture = picture.convert("RGB")
     drawing = path.name.startswith("pattern_")
     method = Image.Quantize.MAXCOVERAGE if drawing else Image.Quantize.MEDIANCUT
@@ -147,7 +148,8 @@ def save(picture, path):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", nargs="?", type=pathlib.Path, default=ROOT / "docs" / "images", metavar="FOLDER")
-    parser.add_argument("--only", nargs="+", choices=PICTURES, default=PICTURES, metavar="NAME", help=", ".join(PICTURES))
+    parser.add_argument("--only", nargs="+", choices=PICTURES, default=PICTURES, metavar="NAME",
+                        help=", ".join(PICTURES))
     options = parser.parse_args()
     try:
         options.folder.mkdir(parents=True, exist_ok=True)

@@ -36,9 +36,9 @@ def test_what_can_not_be_written_is_said(tmp_path):
 
 
 def test_every_picture_is_there_small_and_shown():
-    names = subprocess.run([sys.executable, '-c', 'import make_pictures; print(*make_pictures.PICTURES)'], cwd=SCRIPT.parent,
-                           capture_output=True, text=True, check=True, timeout=60).stdout.split()
-    made = {f'{name}.png' for name in names}
+    names = subprocess.run([sys.executable, '-c', 'import make_pictures; print(*make_pictures.PICTURES)'],
+                           cwd=SCRIPT.parent, capture_output=True, text=True, check=True, timeout=60).stdout
+    made = {f'{name}.png' for name in names.split()}
     there = {path.name: path.stat().st_size for path in IMAGES.iterdir()}
     assert set(there) == made
     assert max(there.values()) < 200 * 1024 and sum(there.values()) < 1700 * 1024
