@@ -23,7 +23,7 @@ def main():
     options.add_argument("out", type=Path)
     options.add_argument("names", nargs="*", default=MODELS, metavar="MODEL", help="file names without .ply")
     options.add_argument("--models", type=Path, default=MODELS_DIR)
-    options = options.parse_args()
+    options = options.parse_intermixed_args()  # MODEL may stand after --models
     for name in options.names:
         mesh = options.models / f"{name}.ply"
         if not mesh.exists():

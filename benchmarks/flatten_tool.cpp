@@ -66,7 +66,7 @@ void WriteCharts(const std::string& in, const std::string& out, const dcharts::P
     data.face_quality.assign(change.chart_ids.begin(), change.chart_ids.end());
     data.seams = change.seams;
   }
-  const dcharts::Workspace work(data);
+  dcharts::Workspace work(data);
   dcharts::ChartIds ids = work.ReadCharts();
   dcharts::SeamMask seams;
   if (!work.ReadSeams(ids, seams)) throw std::runtime_error("The seams don't fit the charts.");

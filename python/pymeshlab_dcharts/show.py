@@ -16,6 +16,7 @@ import numpy as np
 
 try:
     from matplotlib.figure import Figure
+    from matplotlib.textpath import TextPath
     from PIL import Image
 except ImportError as error:
     raise ImportError(
@@ -116,7 +117,10 @@ def show_pattern(svg_file, assembly=False, width=10):
 def _bounds(groups, margin=4):
     """Lower and upper corner of what lies in the groups, in mm."""
     points = [np.reshape(_numbers(e.get("d")), (-1, 2)) for group in groups for e in group.iter(_SVG + "path")]
-    points += [np.reshape(_numbers(e.get("transform", ""))[:2], (-1, 2)) for g in groups for e in g.iter(_SVG + "text")]
+    for element in (e for group in groups for e in group.iter(_SVG + "text")):
+        middle, angle = _place(element)
+        half = float(element.get("textLength", 0)) / 2 * np.array([np.cos(angle), np.sin(angle)])
+        points.append(np.stack([middle - half, middle + half]))
     points = np.vstack(points or [np.empty((0, 2))])
     return points.min(0, initial=np.inf) - margin, points.max(0, initial=-np.inf) + margin
 
@@ -143,12 +147,20 @@ def _draw_path(axes, element, points_per_mm):
         axes.plot(points[:, 0], points[:, 1], color=color, linewidth=wide, linestyle=style)
 
 
-def _draw_text(axes, element, points_per_mm):
+def _place(element):
+    """Where the middle of a text's base line is, and how it is turned, in radians."""
     transform = element.get("transform", "")
-    x, y = _numbers(re.search(r"translate\(([^)]*)\)", transform).group(1))
+    middle = np.array(_numbers(re.search(r"translate\(([^)]*)\)", transform).group(1)))
     turned = re.search(r"rotate\(([^)]*)\)", transform)
-    axes.text(x, y, element.text or "", fontsize=0.9 * float(element.get("font-size")) * points_per_mm,
-              ha="center", va="baseline", rotation=-_numbers(turned.group(1))[0] if turned else 0,
+    return middle, np.radians(_numbers(turned.group(1))[0]) if turned else 0.0
+
+
+def _draw_text(axes, element, points_per_mm):
+    text, size = element.text or "", float(element.get("font-size"))
+    if element.get("textLength") and text.strip():  # the room that is kept for it, whatever the font
+        size = min(size, float(element.get("textLength")) / TextPath((0, 0), text, size=1).get_extents().width)
+    (x, y), angle = _place(element)
+    axes.text(x, y, text, fontsize=size * points_per_mm, ha="center", va="baseline", rotation=-np.degrees(angle),
               rotation_mode="anchor", parse_math=False)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What README.md says is so."""
+"""What README.md says is so. Its files and links: test_docs."""
 import pathlib
 import re
 import shutil
@@ -23,16 +23,6 @@ def test_python_example_runs(tmp_path):
     charts, stretch = run.stdout.split()[-2:]
     assert int(charts) > 1 and 1 <= float(stretch) < 1.1
     assert (tmp_path / "atlas.obj").exists() and (tmp_path / "segmented.ply").exists()
-
-
-def test_every_file_that_is_named_exists():
-    named = set(re.findall(r"(?:scripts|examples|meshes|docs|vcg_ext|filter_dcharts)/[\w./-]*", README))
-    assert len(named) > 15
-    for name in named:
-        name = name.rstrip(".")
-        path = ROOT / name
-        # A name without an ending stands for the .h and .cpp of that name.
-        assert path.exists() or (path.suffix == "" and path.with_suffix(".h").exists()), name
 
 
 def test_apt_line_is_that_of_the_scripts():

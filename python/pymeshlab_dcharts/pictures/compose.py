@@ -11,6 +11,7 @@ SUPERSAMPLING = 2
 PAPER = np.array([1.0, 1.0, 1.0], np.float32)
 DESK = np.array([0.93, 0.93, 0.94], np.float32)  # behind the atlas
 INK = np.array([0.10, 0.10, 0.13], np.float32)
+MARK = np.array([0.85, 0.05, 0.10], np.float32)
 UNASSIGNED = np.array([0.75, 0.75, 0.75], np.float32)
 
 
@@ -74,8 +75,11 @@ class Model:
         chosen = order[seam]
         return face[chosen], corner[chosen]
 
-    def draw(self, view, width, height, colors_at, line_width):
-        """A picture (height by width by 3, 0..1) of the model on paper; colors_at(seen) gives the unlit colours."""
+    def draw(self, view, width, height, colors_at, line_width, marked=None):
+        """A picture (height by width by 3, 0..1) of the model on paper; colors_at(seen) gives the unlit colours.
+
+        marked: a bool for each of seam_corners; those are drawn wider, in red.
+        """
         big_width, big_height = width * SUPERSAMPLING, height * SUPERSAMPLING
         pixels, depths, _ = project(self.vertices, view, big_width, big_height, 0.05 * min(big_width, big_height))
         seen = rasterize(pixels, depths, self.faces, big_width, big_height)
@@ -83,7 +87,6 @@ class Model:
         lit = light(colors_at(seen), seen.interpolate(self.normals), view, seen, size)
 
         face, corner = self.seam_corners
-        a, b = self.faces[face, corner], self.faces[face, (corner + 1) % 3]
         # A seam on the far side stays hidden; on slopes the depth changes much within a pixel.
         nearest = seen.spread(seen.depth, np.inf)
         front = nearest.copy()
@@ -96,10 +99,13 @@ class Model:
             z = depths[a[segment]] * (1 - t) + depths[b[segment]] * t
             return z < front[rows, columns] + 0.004 * size
 
-        lines = np.zeros(seen.shape, bool)
-        stamp_lines(lines, pixels[a], pixels[b], line_width * SUPERSAMPLING / 2, visible)
-        on_line = lines.ravel()[seen.pixel]
-        lit[on_line] = 0.15 * lit[on_line] + 0.85 * INK
+        marked = np.zeros(len(face), bool) if marked is None else marked
+        for some, ink, wider in ((~marked, INK, 1), (marked, MARK, 1.6)):
+            a, b = self.faces[face, corner][some], self.faces[face, (corner + 1) % 3][some]
+            lines = np.zeros(seen.shape, bool)
+            stamp_lines(lines, pixels[a], pixels[b], wider * line_width * SUPERSAMPLING / 2, visible)
+            on_line = lines.ravel()[seen.pixel]
+            lit[on_line] = 0.15 * lit[on_line] + 0.85 * ink
         return shrink(seen.spread(lit, PAPER), SUPERSAMPLING)
 
 
@@ -125,8 +131,9 @@ def _to_bytes(picture):
 
 
 def _page(parts, title):
-    """Pictures side by side under a title."""
-    gap, head = 24, 74
+    """Pictures side by side, under a title if there is one."""
+    gap = 24
+    head = 74 if title else gap
     width = sum(p.shape[1] for p in parts) + gap * (len(parts) + 1)
     height = max(p.shape[0] for p in parts) + head + gap
     page = Image.new("RGB", (width, height), tuple(_to_bytes(PAPER).tolist()))
