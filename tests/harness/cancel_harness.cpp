@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Cancels every filter of a plugin at every callback and checks that the document keeps every byte; and that
-/// deleted elements of a mesh don't matter.
-/// usage: cancel_harness PLUGIN_FILE
+/// Cancels every filter of a plugin at every callback, lets it refuse a mesh, and checks that the document
+/// keeps every byte; and that deleted elements of a mesh don't matter. usage: cancel_harness PLUGIN_FILE
 /// Prints a line per filter; exit code 0 when all is well, 1 with the reasons otherwise.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <limits>
 #include <string>
 
 #include <QCoreApplication>
@@ -74,6 +74,35 @@ std::string CancelEverywhere(Plugin& plugin, QAction* filter, bool seam_layer, i
   }
 }
 
+/// Lets the filter fail, and returns what is wrong after that. The document keeps every byte, those too that
+/// no Python or file shows: components that are switched on, marks, attributes.
+std::string FailureThatChanges(Plugin& plugin, QAction* filter, MeshDocument& document) {
+  g_cancel_at = 0;
+  const auto fails = [&](const RichParameterList& parameters) -> std::string {
+    const Snapshot before = TakeSnapshot(document);
+    const Outcome outcome = plugin.Apply(filter, parameters, document, &Callback);
+    if (outcome.finished) return "what must be refused was not";
+    if (outcome.message.empty()) return "refused without a message for the user";
+    const std::string difference = Difference(before, TakeSnapshot(document));
+    return difference.empty() ? "" : "refused (" + outcome.message + "), but changed: " + difference;
+  };
+  RichParameterList parameters = ParametersOf(plugin, filter, document, false);
+  for (auto& face : document.mm()->cm.face) {
+    if (face.IsD()) continue;
+    const Scalarm x = face.V(0)->P().X();
+    face.V(0)->P().X() = std::numeric_limits<Scalarm>::quiet_NaN();
+    const std::string problem = fails(parameters);
+    face.V(0)->P().X() = x;
+    if (!problem.empty()) return problem;
+    break;
+  }
+  // A pattern can turn out to be impossible when most of the work is done.
+  if (!parameters.hasParameter("seam_allowance")) return "";
+  parameters.setValue("size", FloatValue(10));
+  parameters.setValue("seam_allowance", FloatValue(100));
+  return fails(parameters);
+}
+
 /// Positions, faces, normals, selection and the user's attributes stay even when a filter finishes. The names
 /// are those of the snapshot.
 std::string ChangeOfUsersOwn(const Snapshot& before, const Snapshot& after) {
@@ -101,7 +130,8 @@ int RunAll(Plugin& plugin, bool seam_layer) {
       continue;
     }
     const Snapshot before = TakeSnapshot(document);
-    std::string problem = CancelEverywhere(plugin, filter, seam_layer, total, document);
+    std::string problem = FailureThatChanges(plugin, filter, document);
+    if (problem.empty()) problem = CancelEverywhere(plugin, filter, seam_layer, total, document);
     if (problem.empty()) problem = ChangeOfUsersOwn(before, TakeSnapshot(document));
     failures += problem.empty() ? 0 : 1;
     std::printf("%s %s%s: %s\n", problem.empty() ? "ok  " : "FAIL", qUtf8Printable(filter->text()),

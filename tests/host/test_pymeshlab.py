@@ -188,9 +188,8 @@ def test_no_mesh(name):
     assert is_sentence(str(refused.value))
 
 
-@pytest.mark.parametrize('name', PYTHON_NAMES)
-@pytest.mark.parametrize('kind', REFUSED_MESHES)
-def test_refused_mesh(name, kind):
+def refused(kind):
+    """A MeshSet with such a mesh."""
     if kind == 'empty mesh':  # pymeshlab loads none: delete all there is
         ms = load(MESHES[0])
         ms.set_selection_all()
@@ -203,7 +202,37 @@ def test_refused_mesh(name, kind):
             matrices['face_matrix'] = np.array([line.split()[1:] for line in faces], int)
         ms = pymeshlab.MeshSet()
         ms.add_mesh(pymeshlab.Mesh(**matrices))
-    refusal(ms, name)
+    return ms
+
+
+@pytest.mark.parametrize('name', PYTHON_NAMES)
+@pytest.mark.parametrize('kind', REFUSED_MESHES)
+def test_refused_mesh(name, kind):
+    refusal(refused(kind), name)
+
+
+# kind of mesh -> the filters that its refusal names, and how Python calls them
+CONDITION = 'x * 0 + y * 0 + z * 0 != 0'  # holds for infinite numbers and for those that are none
+MENDING = {
+    'NaN coordinate': (('Conditional Vertex Selection', 'compute_selection_by_condition_per_vertex', {'condselect': CONDITION}),
+                       ('Delete Selected Vertices', 'meshing_remove_selected_vertices', {})),
+    'point cloud': (('Surface Reconstruction: Ball Pivoting', 'generate_surface_reconstruction_ball_pivoting', {}),),
+    'zero area': (('Remove Zero Area Faces', 'meshing_remove_null_faces', {}),),
+}
+MENDING['infinite coordinate'] = MENDING['NaN coordinate']
+
+
+@pytest.mark.parametrize('kind', MENDING)
+def test_the_filters_that_a_refusal_names_mend_the_mesh(kind):
+    ms = refused(kind)
+    sentence = refusal(ms, ATLAS)
+    for named, python_name, parameters in MENDING[kind]:
+        assert f'"{named}"' in sentence
+        ms.apply_filter(python_name, **parameters)
+    if kind == 'zero area':
+        assert ms.current_mesh().face_number() == 0
+    else:
+        assert ms.apply_filter(ATLAS)['charts'] > 0
 
 
 @pytest.mark.parametrize('name, parameter, value',

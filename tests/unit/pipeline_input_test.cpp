@@ -46,11 +46,13 @@ std::string Refusal(Stage stage, const SurfaceData& mesh) {
   return "";
 }
 
-void ExpectRefused(const SurfaceData& mesh, const std::string& word) {
+// `word` says what is wrong, `mends` is what MeshLab has against it.
+void ExpectRefused(const SurfaceData& mesh, const std::string& word, const std::string& mends) {
   for (const auto& [name, stage] : kStages) {
     const std::string sentence = Refusal(stage, mesh);
     ASSERT_FALSE(sentence.empty()) << name;
     EXPECT_NE(sentence.find(word), std::string::npos) << name << ": " << sentence;
+    EXPECT_NE(sentence.find(mends), std::string::npos) << name << ": " << sentence;
     EXPECT_EQ(sentence.back(), '.') << name << ": " << sentence;
     EXPECT_GT(sentence.size(), 30u) << name << ": " << sentence;
   }
@@ -82,12 +84,12 @@ SurfaceData FromLists(std::vector<std::array<double, 3>> vertices, std::vector<s
 
 SurfaceData Triangle() { return FromLists({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}); }
 
-TEST(Refused, EmptyMesh) { ExpectRefused(SurfaceData(), "empty"); }
+TEST(Refused, EmptyMesh) { ExpectRefused(SurfaceData(), "empty", "open or create"); }
 
 TEST(Refused, NoFaces) {
   SurfaceData mesh = Triangle();
   mesh.faces.clear();
-  ExpectRefused(mesh, "no faces");
+  ExpectRefused(mesh, "no faces", "\"Surface Reconstruction: Ball Pivoting\"");
 }
 
 TEST(Refused, CoordinatesThatAreNoNumber) {
@@ -95,27 +97,31 @@ TEST(Refused, CoordinatesThatAreNoNumber) {
     for (size_t d = 0; d < 3; ++d) {
       SurfaceData mesh = shapes::Cube(2);
       mesh.vertices[5][d] = bad;
-      ExpectRefused(mesh, "not a number");
+      ExpectRefused(mesh, "not a number",
+                    "\"Conditional Vertex Selection\" and \"Delete Selected Vertices\"");
     }
 }
 
 TEST(Refused, NoArea) {
-  ExpectRefused(FromLists({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {{0, 1, 2}}), "no area");
-  ExpectRefused(FromLists({{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}, {{0, 1, 2}}), "no area");
-  ExpectRefused(FromLists({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 1}, {2, 2, 2}}), "no area");
+  ExpectRefused(FromLists({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {{0, 1, 2}}), "no area",
+                "\"Remove Zero Area Faces\"");
+  ExpectRefused(FromLists({{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}, {{0, 1, 2}}), "no area",
+                "\"Remove Zero Area Faces\"");
+  ExpectRefused(FromLists({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 1}, {2, 2, 2}}), "no area",
+                "\"Remove Zero Area Faces\"");
   // On a line but for rounding.
   const double x = 0.14774253254068487;
   for (const double share : {0.1, 0.25538914642, 0.3, 0.7})
     ExpectRefused(
         FromLists({{x, 0, 6e-17}, {0, 0, 1}, {share * x, 0, 1 - share}, {0, 0, 1}}, {{0, 1, 2}, {2, 3, 0}}),
-        "no area");
+        "no area", "\"Remove Zero Area Faces\"");
 }
 
 TEST(Refused, FaceWithoutVertex) {
   for (int v : {-1, 3}) {
     SurfaceData mesh = Triangle();
     mesh.faces[0][1] = v;
-    ExpectRefused(mesh, "vertex");
+    ExpectRefused(mesh, "vertex", "save the mesh and load it again");
   }
 }
 
