@@ -12,10 +12,12 @@
 #include "planar/flatten_start.h"
 #include "planar/flatten_start_tutte.h"
 #include "planar/linf_finish.h"
+#include "planar/map_from_coarser.h"
 #include "planar/normalized_chart.h"
 #include "planar/plane_points.h"
 #include "planar/rest_shapes.h"
 #include "planar/stretch_descent.h"
+#include "planar/vertex_descent.h"
 
 namespace dcharts {
 namespace {
@@ -47,12 +49,13 @@ double MinimizeSymmetricDirichlet(const Triangles& triangles, const RestShapes& 
 }
 
 // Moves triangles that would flip when texture coordinates are rounded to float32 apart, as far as that goes.
-void MakeSafeForFloat32(const Triangles& triangles, RestShapes& shapes, VertexBlockSystem& system,
-                        const Poll& poll, PlanePoints& uv) {
+// `descend` lowers Sander's energy for the shapes.
+void MakeSafeForFloat32(const Triangles& triangles, RestShapes& shapes, const std::function<void()>& descend,
+                        const PlanePoints& uv) {
   double weight = 1e-2;
   for (int round = 0; round < 5 && ThickenThinTriangles(triangles, uv, weight, shapes) > 0; ++round) {
     RelaxSlivers(triangles, uv, shapes);
-    Descend({Kind::kSander}, {StepKind::kProjectedNewton, 8, 1e-3}, triangles, shapes, system, poll, uv);
+    descend();
     weight *= 10;
   }
 }
@@ -120,6 +123,26 @@ Flattening FlattenConformal(const NormalizedChart& normalized, RestShapes shapes
   return result;
 }
 
+// A large chart with the least stretch. Not ok and without a reason when that has to be done otherwise.
+Flattening FlattenLarge(const NormalizedChart& normalized, const FlattenOptions& options, const Poll& poll) {
+  Flattening coarse;
+  RestShapes shapes = RestShapesOf(normalized.mesh);
+  const auto flatten = [&](const ChartMesh& chart) {
+    coarse = Flatten(chart, options, poll);
+    return coarse.uv;
+  };
+  std::optional<PlanePoints> uv = MapFromCoarser(normalized.mesh, flatten, poll, shapes);
+  if (!uv) return Failure(coarse.why);
+  const Triangles& triangles = normalized.mesh.triangles;
+  const VertexSweeps sweeps(static_cast<int>(uv->size()), triangles, shapes);
+  if (options.linf_finish) sweeps.LowerWorst(poll, *uv);
+  MakeSafeForFloat32(
+      triangles, shapes, [&] { sweeps.EvenOut(poll, *uv); }, *uv);
+  Flattening result = Finished(normalized, *uv);
+  if (!result.ok) result.why.clear();
+  return result;
+}
+
 }  // namespace
 
 Flattening Flatten(const ChartMesh& chart, const FlattenOptions& options, const Poll& poll) {
@@ -128,6 +151,10 @@ Flattening Flatten(const ChartMesh& chart, const FlattenOptions& options, const 
   const NormalizedChart normalized = Normalized(chart);
   if (!(normalized.scale > 0)) return FlattenWithoutArea(chart, normalized.extent);
   if (poll) poll();
+  if (options.method == FlattenMethod::kStretchMinimizing && IsLargeChart(chart)) {
+    Flattening large = FlattenLarge(normalized, options, poll);
+    if (large.ok || !large.why.empty()) return large;
+  }
 
   const Triangles& triangles = chart.triangles;
   RestShapes shapes = RestShapesOf(normalized.mesh);
@@ -151,7 +178,12 @@ Flattening Flatten(const ChartMesh& chart, const FlattenOptions& options, const 
   const int steps = energy > kFarFromFlat ? 7 : 15;
   Descend({Kind::kSander}, {StepKind::kProjectedNewton, steps, 1e-3}, triangles, shapes, system, poll, uv);
   if (options.linf_finish) LowerWorstStretch(normalized.mesh, options.l2_bound, shapes, system, poll, uv);
-  MakeSafeForFloat32(triangles, shapes, system, poll, uv);
+  MakeSafeForFloat32(
+      triangles, shapes,
+      [&] {
+        Descend({Kind::kSander}, {StepKind::kProjectedNewton, 8, 1e-3}, triangles, shapes, system, poll, uv);
+      },
+      uv);
 
   Flattening result = Finished(normalized, uv);
   if (result.ok) result.note = note;

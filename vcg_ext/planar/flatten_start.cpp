@@ -17,7 +17,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Symmetric Dirichlet energies:
 constexpr double kGoodStart = 2;  // a start from angles above it is compared with Tutte's
-constexpr double kGoodKnown = 3;  // a known map above it isn't used
 
 }  // namespace
 
@@ -41,11 +40,15 @@ double ScaleToBest(const Triangles& triangles, const RestShapes& shapes, PlanePo
   return MapEnergy({StretchEnergy::Kind::kSymmetricDirichlet}, triangles, shapes, uv);
 }
 
+bool IsUsableStart(const ChartMesh& chart, const Points2* known) {
+  return known != nullptr && known->rows() == chart.positions.rows() && known->allFinite();
+}
+
 double FlattenStart(const ChartMesh& chart, const RestShapes& shapes, const Points2* known,
                     VertexBlockSystem& system, const std::function<void()>& poll, PlanePoints& uv) {
   constexpr int kAngleSteps = 1;
   double energy = kInfinity;
-  if (known != nullptr && known->rows() == chart.positions.rows() && known->allFinite()) {
+  if (IsUsableStart(chart, known)) {
     uv = ToPlanePoints(*known);
     energy = ScaleToBest(chart.triangles, shapes, uv);
     if (energy < kGoodKnown) return energy;

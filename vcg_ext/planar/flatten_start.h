@@ -17,6 +17,12 @@ namespace dcharts {
 double FlattenStart(const ChartMesh& chart, const RestShapes& shapes, const Points2* known,
                     VertexBlockSystem& system, const std::function<void()>& poll, PlanePoints& uv);
 
+/// Whether `known` (may be null) has a place for every vertex of the chart.
+bool IsUsableStart(const ChartMesh& chart, const Points2* known);
+
+/// A known map with a symmetric Dirichlet energy above it isn't used as a start.
+constexpr double kGoodKnown = 3;
+
 /// Brings a map to the size at which its symmetric Dirichlet energy is least; returns that energy, infinite
 /// when the map flips.
 double ScaleToBest(const Triangles& triangles, const RestShapes& shapes, PlanePoints& uv);

@@ -72,51 +72,60 @@ RestShape ShapeFromCorners(const Complex& r0, const Complex& r1, const Complex& 
   return shape;
 }
 
-RestShapes RestShapesOf(const ChartMesh& chart) {
-  const Eigen::Index count = chart.triangles.rows();
-  const double mean_area = 1.0 / static_cast<double>(count);
+RestFloors RestFloorsOf(const ChartMesh& chart) {
   const Eigen::RowVector3d size = chart.positions.colwise().maxCoeff() - chart.positions.colwise().minCoeff();
-  const double wanted_height = kWantedHeight * size.maxCoeff();
-  const double smallest_edge = std::max(kTiny * std::sqrt(mean_area), wanted_height);
-  RestShapes shapes(static_cast<std::size_t>(count));
-  for (Eigen::Index t = 0; t < count; ++t) {
+  RestFloors floors;
+  floors.mean_area = 1.0 / static_cast<double>(chart.triangles.rows());
+  floors.height = kWantedHeight * size.maxCoeff();
+  floors.edge = std::max(kTiny * std::sqrt(floors.mean_area), floors.height);
+  return floors;
+}
+
+RestShape RestShapeOf(const Eigen::Vector3d corner[3], const RestFloors& floors) {
+  int base = 0;  // the longest edge runs from corner `base` to the next
+  double longest = -1;
+  for (int k = 0; k < 3; ++k) {
+    const double length = (corner[(k + 1) % 3] - corner[k]).norm();
+    if (length > longest) longest = length, base = k;
+  }
+  const Eigen::Vector3d along = corner[(base + 1) % 3] - corner[base];
+  const Eigen::Vector3d side = corner[(base + 2) % 3] - corner[base];
+  const double twice_area = along.cross(side).norm();
+  double foot = 0.5 * floors.edge, height = floors.edge;
+  bool sliver = true;
+  if (longest > 0) {
+    foot = along.dot(side) / longest;
+    height = twice_area / longest;
+    const bool tiny = longest < floors.edge;
+    const bool thin = height < kThin * longest && 0.5 * twice_area < kSmall * floors.mean_area;
+    sliver = tiny || thin || height < kHopelesslyThin * longest || height < floors.height;
+    if (tiny) {
+      const double grow = floors.edge / longest;
+      foot *= grow;
+      height *= grow;
+      longest = floors.edge;
+    }
+    if (sliver) height = std::max({height, kThin * longest, floors.height});
+  } else {
+    longest = floors.edge;
+  }
+  Complex r[3];
+  r[base] = 0;
+  r[(base + 1) % 3] = longest;
+  r[(base + 2) % 3] = {foot, height};
+  RestShape shape = ShapeFromCorners(r[0], r[1], r[2]);
+  shape.sliver = sliver;
+  shape.weight = sliver ? kSliverWeight * floors.mean_area : 0.5 * twice_area;
+  return shape;
+}
+
+RestShapes RestShapesOf(const ChartMesh& chart) {
+  const RestFloors floors = RestFloorsOf(chart);
+  RestShapes shapes(static_cast<std::size_t>(chart.triangles.rows()));
+  for (Eigen::Index t = 0; t < chart.triangles.rows(); ++t) {
     Eigen::Vector3d corner[3];
     for (int k = 0; k < 3; ++k) corner[k] = chart.positions.row(chart.triangles(t, k)).transpose();
-    int base = 0;  // the longest edge runs from corner `base` to the next
-    double longest = -1;
-    for (int k = 0; k < 3; ++k) {
-      const double length = (corner[(k + 1) % 3] - corner[k]).norm();
-      if (length > longest) longest = length, base = k;
-    }
-    const Eigen::Vector3d along = corner[(base + 1) % 3] - corner[base];
-    const Eigen::Vector3d side = corner[(base + 2) % 3] - corner[base];
-    const double twice_area = along.cross(side).norm();
-    double foot = 0.5 * smallest_edge, height = smallest_edge;
-    bool sliver = true;
-    if (longest > 0) {
-      foot = along.dot(side) / longest;
-      height = twice_area / longest;
-      const bool tiny = longest < smallest_edge;
-      const bool thin = height < kThin * longest && 0.5 * twice_area < kSmall * mean_area;
-      sliver = tiny || thin || height < kHopelesslyThin * longest || height < wanted_height;
-      if (tiny) {
-        const double grow = smallest_edge / longest;
-        foot *= grow;
-        height *= grow;
-        longest = smallest_edge;
-      }
-      if (sliver) height = std::max({height, kThin * longest, wanted_height});
-    } else {
-      longest = smallest_edge;
-    }
-    Complex r[3];
-    r[base] = 0;
-    r[(base + 1) % 3] = longest;
-    r[(base + 2) % 3] = {foot, height};
-    RestShape& shape = shapes[static_cast<std::size_t>(t)];
-    shape = ShapeFromCorners(r[0], r[1], r[2]);
-    shape.sliver = sliver;
-    shape.weight = sliver ? kSliverWeight * mean_area : 0.5 * twice_area;
+    shapes[static_cast<std::size_t>(t)] = RestShapeOf(corner, floors);
   }
   return shapes;
 }

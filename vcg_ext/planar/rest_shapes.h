@@ -21,6 +21,17 @@ using RestShapes = std::vector<RestShape>;
 /// Rest shape of a triangle with the given corners in the plane, which must have a positive area.
 RestShape ShapeFromCorners(const Complex& r0, const Complex& r1, const Complex& r2);
 
+/// What triangles of a chart are held to, lengths at a total area of about 1.
+struct RestFloors {
+  double mean_area = 0;
+  double height = 0;  ///< least height of a rest shape
+  double edge = 0;    ///< least longest edge
+};
+RestFloors RestFloorsOf(const ChartMesh& chart);
+
+/// The rest shape of one triangle in space, see RestShapesOf.
+RestShape RestShapeOf(const Eigen::Vector3d corner[3], const RestFloors& floors);
+
 /// Rest shapes of the chart's triangles, which must have a total area of about 1. Triangles too thin or too
 /// small to give a direction, or to keep their orientation in float32, get a floored height or size and a
 /// small weight, and are marked as slivers.

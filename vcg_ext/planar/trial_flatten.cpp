@@ -2,16 +2,19 @@
 #include "planar/trial_flatten.h"
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "planar/boundary_loops.h"
 #include "planar/distortion.h"
 #include "planar/flatten_start.h"
 #include "planar/line_search.h"
+#include "planar/map_from_coarser.h"
 #include "planar/normalized_chart.h"
 #include "planar/plane_points.h"
 #include "planar/rest_shapes.h"
 #include "planar/stretch_descent.h"
+#include "planar/vertex_descent.h"
 
 namespace dcharts {
 namespace {
@@ -45,6 +48,24 @@ TrialFlattening Measured(const NormalizedChart& normalized, const RestShapes& sh
   return result;
 }
 
+TrialFlattening Judged(TrialFlattening trial, double bound) {
+  trial.ok = trial.l2_stretch - 1 <= bound;
+  trial.rejected = !trial.ok;
+  return trial;
+}
+
+// The map of a large chart that is evened out from a start that is good but for some places; nothing without
+// one.
+std::optional<PlanePoints> NearStart(const ChartMesh& chart, const Points2* start, const Poll& poll,
+                                     RestShapes& shapes) {
+  if (!IsUsableStart(chart, start)) return std::nullopt;
+  PlanePoints uv = ToPlanePoints(*start);
+  if (!(ScaleToBest(chart.triangles, shapes, uv) < kGoodKnown)) return std::nullopt;
+  RelaxSlivers(chart.triangles, uv, shapes);
+  VertexSweeps(static_cast<int>(uv.size()), chart.triangles, shapes).EvenOut(poll, uv);
+  return uv;
+}
+
 }  // namespace
 
 TrialFlattening TrialFlatten(const ChartMesh& chart, const TrialOptions& options, const Poll& poll) {
@@ -55,7 +76,22 @@ TrialFlattening TrialFlatten(const ChartMesh& chart, const TrialOptions& options
   if (poll) poll();
 
   const Triangles& triangles = chart.triangles;
+  const double bound = options.l2_bound - 1;
   RestShapes shapes = RestShapesOf(normalized.mesh);
+  if (IsLargeChart(chart)) {
+    if (const std::optional<PlanePoints> uv = NearStart(normalized.mesh, options.start, poll, shapes))
+      return Judged(Measured(normalized, shapes, *uv), bound);
+    TrialFlattening coarse;
+    const auto flatten = [&](const ChartMesh& mesh) {
+      TrialOptions of_coarse = options;
+      of_coarse.start = nullptr;
+      coarse = TrialFlatten(mesh, of_coarse, poll);
+      return coarse.ok ? coarse.uv : Points2();
+    };
+    const std::optional<PlanePoints> uv = MapFromCoarser(normalized.mesh, flatten, poll, shapes);
+    if (uv) return Judged(Measured(normalized, shapes, *uv), bound);
+    if (coarse.rejected || !coarse.why.empty()) return coarse;
+  }
   VertexBlockSystem system(static_cast<int>(chart.positions.rows()), triangles);
   PlanePoints uv;
   double energy = FlattenStart(normalized.mesh, shapes, options.start, system, poll, uv);
@@ -64,7 +100,6 @@ TrialFlattening TrialFlatten(const ChartMesh& chart, const TrialOptions& options
     energy = Descend({Kind::kSymmetricDirichlet}, {StepKind::kReweighted, kReweightedSteps, 0}, triangles,
                      shapes, system, poll, uv);
   }
-  const double bound = options.l2_bound - 1;
   if (energy < kFarFromFlat) {
     RelaxSlivers(triangles, uv, shapes);
     // At the best scale of the map, Sander's energy is L2 - 1.
@@ -73,10 +108,7 @@ TrialFlattening TrialFlatten(const ChartMesh& chart, const TrialOptions& options
     if (options.decide_only) steps.enough = bound;
     Descend({Kind::kSander}, steps, triangles, shapes, system, poll, uv);
   }
-  TrialFlattening result = Measured(normalized, shapes, uv);
-  result.ok = result.l2_stretch - 1 <= bound;
-  result.rejected = !result.ok;
-  return result;
+  return Judged(Measured(normalized, shapes, uv), bound);
 }
 
 }  // namespace dcharts

@@ -128,7 +128,7 @@ class BorderGraphCut {
     if (charts_[a].area < charts_[b].area) std::swap(a, b);
     if (!CollectBand(a, b, band, ids)) return Outcome::kDone;
     PriceBand(a, b, ids);
-    side_ = MinCut(pull_, edges_);
+    side_ = BandedMinCut(pull_, edges_);
     DropIslands(a, b);
     return ApplyCut(a, b, ids);
   }

@@ -53,6 +53,7 @@ class ChartParts {
   ChartPatch CoarsePatch(const std::vector<int>& parts) { return Patch(parts, coarse_); }
   /// Of the copy for checks: the surface itself, if that isn't large.
   ChartPatch FinePatch(const std::vector<int>& parts) { return Patch(parts, fine_); }
+  const CoarseCopy& Fine() const { return fine_; }
   int PartOfFine(int face) const { return fine_.Ids()[face]; }
   int SurfaceFaceCount() const { return face_count_; }
 

@@ -7,13 +7,10 @@
 #include <map>
 #include <vector>
 
+#include "common/chart_ids.h"
 #include "surface/surface_graph.h"
 
 namespace dcharts {
-
-/// Chart id per face, 0..n-1; kUnassigned while no chart has taken the face.
-using ChartIds = std::vector<int>;
-constexpr int kUnassigned = -1;
 
 /// Seam bit mask per face: bit i = edge (i, i+1).
 using SeamMask = std::vector<std::uint8_t>;
@@ -23,12 +20,6 @@ inline bool IsSeam(const SeamMask& seams, int half_edge) {
 }
 inline void SetSeam(SeamMask& seams, int half_edge) {
   seams[half_edge / 3] = static_cast<std::uint8_t>(seams[half_edge / 3] | 1 << (half_edge % 3));
-}
-
-inline int ChartCount(const ChartIds& ids) {
-  int count = 0;
-  for (int id : ids) count = std::max(count, id + 1);
-  return count;
 }
 
 /// Face quality as users and other tools write it: an integer to within 0.01, at least 0; all else is

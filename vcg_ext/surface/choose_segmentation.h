@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
 #include "common/params.h"
 #include "common/progress.h"
+#include "surface/coarse_copy.h"
+#include "surface/denoised_normals.h"
 #include "surface/fill.h"
 #include "surface/lloyd.h"
 #include "surface/straighten.h"
@@ -27,9 +30,9 @@ class SegmentationChooser {
   static int Fewer(int enough) { return std::max(1, enough * 4 / 5); }
 
   Segmentation Run() {
-    // On large meshes it would take too long.
     constexpr int kManyFaces = 100000;
-    if (params_.chart_count > 0 || params_.target_charts == 0 || surface_.FaceCount() > kManyFaces)
+    if (surface_.FaceCount() > kManyFaces) return FromCoarser();
+    if (params_.chart_count > 0 || params_.target_charts == 0)
       return Lloyd<MeshType>(surface_, params_, progress_).Run();
     const int enough = Lloyd<MeshType>::EnoughCharts(params_, surface_.FaceCount());
     const std::array<int, 2> candidates{Fewer(enough), enough};
@@ -53,6 +56,29 @@ class SegmentationChooser {
   }
 
  private:
+  // A coarser copy is enough to find charts and their number; the surface itself then has little to set
+  // right.
+  Segmentation FromCoarser() {
+    constexpr int kEnoughFaces = 50000, kFacesPerChart = 100;
+    const int most = std::max(kEnoughFaces, kFacesPerChart * params_.chart_count);
+    if (most >= surface_.FaceCount()) return Lloyd<MeshType>(surface_, params_, progress_).Run();
+    CoarseCopy copy(surface_, ChartIds(surface_.FaceCount(), 0), most);
+    DenoiseNormals(copy.Graph());
+    progress_.Update(0.3);
+    constexpr double kShare = 0.7;
+    Progress part([&](int percent, const char*) {
+      progress_.Update(0.3 + (kShare - 0.3) * percent / 100.0);
+      progress_.Poll();
+      return true;
+    });
+    const Segmentation coarse = SegmentationChooser<SurfaceMesh>(copy.Graph(), params_, part).Run();
+    std::vector<GrowingChart> charts = Lloyd<SurfaceMesh>(copy.Graph(), params_, part).ChartsOf(coarse.ids);
+    for (GrowingChart& chart : charts) chart.seed = copy.SourceFace(chart.seed);
+    Segmentation result = Lloyd<MeshType>(surface_, params_, progress_).RunFrom(std::move(charts));
+    result.iterations += coarse.iterations;
+    return result;
+  }
+
   // Of the atlas, as far as a stage knows that has the parameters of Segment.
   double Cost(ChartIds ids, Progress& progress) const {
     Params params;

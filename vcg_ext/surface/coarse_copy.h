@@ -23,6 +23,9 @@ class CoarseCopy {
   CoarseCopy(const CoarseCopy&) = delete;
 
   const SurfaceGraph<SurfaceMesh>& Graph() const { return graph_; }
+  SurfaceGraph<SurfaceMesh>& Graph() { return graph_; }
+  int SourceFace(int face) const { return coarse_.source_face[face]; }  ///< of the original surface
+  int Heir(int face) const { return coarse_.heir[face]; }               ///< of a face of the original surface
   const ChartIds& Ids() const { return coarse_.ids; }
   ChartPatch Extract(const std::vector<int>& faces) { return extractor_.Extract(faces); }
   const std::vector<std::vector<int>>& FacesOf() const { return faces_; }  ///< per chart

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "planar/coarsener.h"
 #include "surface/chart_patch.h"
 #include "surface/charts.h"
 #include "surface/surface_graph.h"
@@ -17,14 +18,9 @@ namespace dcharts {
 struct CoarseSurface {
   std::unique_ptr<SurfaceMesh> mesh;  ///< with face-face topology, ready for SurfaceGraph
   ChartIds ids;                       ///< per coarse face
-  std::vector<int> source_vertex;     ///< per coarse vertex, its index in the original surface
-};
-
-/// A surface as flat arrays, its vertices split into fans of faces.
-struct FannedSurface {
-  std::vector<Eigen::Vector3d> positions;  ///< per fan vertex
-  std::vector<int> source_vertex;          ///< per fan vertex
-  std::vector<int> vertex, opposite;       ///< per half-edge, see SurfaceGraph
+  std::vector<int> source_face;       ///< per coarse face, ascending, its index in the original surface
+  std::vector<int> heir;           ///< per face of the original surface, a coarse face near it, of its chart
+  std::vector<int> source_vertex;  ///< per coarse vertex, its index in the original surface
 };
 
 /// See CoarsenCharts.

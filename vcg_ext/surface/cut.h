@@ -104,7 +104,7 @@ class ChartCutter {
       std::vector<DartedChart> charts;
       PatchExtractor<MeshType> extractor(surface_, seams);
       for (const auto& faces : FacesOfCharts(ids))
-        if (!done[faces.front()]) charts.push_back({{}, 0, extractor.Extract(faces), {}});
+        if (!done[faces.front()]) charts.push_back({{}, 0, {}, extractor.Extract(faces), {}});
       ParallelFor(static_cast<int>(charts.size()), progress_, [&](int k, const std::function<void()>& poll) {
         charts[k] = CutStretchDarts(charts[k].patch, known.Find(charts[k].patch),
                                     GoalOf(charts[k].patch, bound), poll);
@@ -114,6 +114,11 @@ class ChartCutter {
         const std::vector<int>& faces = chart.patch.faces;
         for (int f : faces) done[f] = 1;
         const bool good = chart.flat.ok && chart.flat.l2_stretch <= bound;
+        if (!good && JoinAllLoops(extractor.Extract(faces), seams)) {
+          for (int f : faces) done[f] = 0;
+          again = true;
+          continue;
+        }
         if (!good && may_part && faces.size() > 1) {
           const ChartPatch whole = extractor.Extract(faces);
           PartChart(whole, Bisect(whole), next_id++, ids, seams);
@@ -137,6 +142,13 @@ class ChartCutter {
     return count;
   }
 
+  // A loop that was left uncut may be why a chart is stretched. False when all are joined already.
+  bool JoinAllLoops(const ChartPatch& patch, SeamMask& seams) const {
+    const std::vector<int> cuts = CutsThatJoinLoops(patch, true);
+    Mark(patch, cuts, seams);
+    return !cuts.empty();
+  }
+
   DartGoal GoalOf(const ChartPatch& patch, double bound) const {
     constexpr double kWorstStretch = 1.3;
     DartGoal goal;
@@ -145,6 +157,7 @@ class ChartCutter {
     if (params_.dart_by == DartMethod::kMeasuredStretch)
       goal.longest = params_.max_dart_percent / 100 * patch.Diagonal();
     goal.unit = std::sqrt(surface_.TotalArea());
+    goal.may_give_up = MayPart();
     return goal;
   }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "common/params.h"
@@ -42,6 +43,20 @@ class Lloyd {
     if (params_.target_charts > 0)
       return Iterate(EnoughCharts(params_, surface_.FaceCount()), params_.max_iterations);
     return Smallest();
+  }
+
+  /// From charts that are nearly right: as few iterations as set them right.
+  Segmentation RunFrom(std::vector<GrowingChart> charts) {
+    constexpr int kFewIterations = 2;
+    return Iterate(std::move(charts), std::min(kFewIterations, params_.max_iterations));
+  }
+
+  /// The charts of a segmentation, with its own proxies and seeds.
+  std::vector<GrowingChart> ChartsOf(const ChartIds& ids) const {
+    std::vector<GrowingChart> charts;
+    for (const auto& faces : FacesOfCharts(ids))
+      if (!faces.empty()) charts.push_back(seeds_.Refit(faces, params_));
+    return charts;
   }
 
  private:
@@ -91,7 +106,10 @@ class Lloyd {
   }
 
   Segmentation Iterate(int count, int max_iterations) {
-    std::vector<GrowingChart> charts = seeds_.FarthestPoints(count);
+    return Iterate(seeds_.FarthestPoints(count), max_iterations);
+  }
+
+  Segmentation Iterate(std::vector<GrowingChart> charts, int max_iterations) {
     // The iterations may swing without end: they stop when nothing was gained for a while.
     constexpr int kPatience = 6;
     constexpr double kGain = 0.005;
@@ -112,10 +130,7 @@ class Lloyd {
       without_gain = gained ? 0 : without_gain + 1;
       if (without_gain >= kPatience) break;
 
-      std::vector<GrowingChart> next;
-      for (const auto& faces : FacesOfCharts(ids))
-        if (!faces.empty()) next.push_back(seeds_.Refit(faces, params_));
-      charts = std::move(next);
+      charts = ChartsOf(ids);
     }
     RemoveSpecks(best.ids);
     return best;

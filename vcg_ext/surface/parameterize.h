@@ -18,7 +18,10 @@
 #include "planar/distortion.h"
 #include "planar/flatten.h"
 #include "planar/overlap.h"
+#include "planar/map_from_coarser.h"
 #include "planar/packing.h"
+#include "planar/trial_flatten.h"
+#include "surface/carried_map.h"
 #include "surface/chart_patch.h"
 #include "surface/charts.h"
 #include "surface/cut.h"
@@ -217,8 +220,9 @@ class Parameterizer {
     }
     if (piece.flat) {
       // After some tries the parts keep the places they have: then each split removes overlaps for good.
+      // Large charts, which take long, do so at once.
       constexpr int kFreshTries = 3;
-      const bool inherit = ++splits_[patch.faces.front()] > kFreshTries;
+      const bool inherit = ++splits_[patch.faces.front()] > kFreshTries || IsLargeChart(patch.mesh);
       for (int f : patch.faces) splits_[f] = splits_[patch.faces.front()];
       if (inherit && piece.is_new) Store(piece);
       SplitPiece(patch, SplitAtOverlaps(patch, piece.overlaps), inherit ? State::kToCheck : State::kToFlatten,
@@ -298,6 +302,18 @@ class Parameterizer {
     SplitAndCompact(surface_, ids, &seams);
   }
 
+  // The piece is a large chart that is stored, `host`, and a little more: that is laid beside it.
+  void LayBeside(const ChartPatch& host, Piece& piece, const std::function<void()>& poll) const {
+    const Points2 start = CarriedMap(host, StoredUv(host), piece.patch);
+    TrialOptions options;
+    options.start = &start;
+    TrialFlattening flat = TrialFlatten(piece.patch.mesh, options, poll);
+    piece.is_new = true;
+    piece.flat = flat.ok;
+    piece.uv = std::move(flat.uv);
+    piece.l2_stretch = flat.l2_stretch;
+  }
+
   // Chart c becomes part of d if the union lies flat without overlap.
   bool TryJoin(int c, int d, ChartIds& ids, SeamMask& seams) {
     SeamMask joined = seams;
@@ -315,7 +331,14 @@ class Parameterizer {
     const size_t loops = LoopsOf(piece.patch).size();
     if (loops == 0 || !CutsThatOpenHandles(piece.patch).empty() || (all_disks_ && loops > 1)) return false;
     const auto poll = [&] { progress_.Poll(); };
-    LayFlat(piece, FlattenMethod::kStretchMinimizing, poll);
+    if (IsLargeChart(piece.patch.mesh)) {
+      std::vector<int> host;
+      for (int f : faces)
+        if (ids[f] == d) host.push_back(f);
+      LayBeside(PatchExtractor<MeshType>(surface_, seams).Extract(host), piece, poll);
+    } else {
+      LayFlat(piece, FlattenMethod::kStretchMinimizing, poll);
+    }
     constexpr double kWorthIt = 1.02;
     if (!piece.flat || piece.l2_stretch > std::min(kWorthIt, params_.StretchBound())) return false;
     if (params_.method != FlattenMethod::kStretchMinimizing) LayFlat(piece, params_.method, poll);

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "common/pi.h"
+#include "planar/coarse_chart.h"
 #include "planar/distortion.h"
+#include "planar/map_from_coarser.h"
 #include "planar/overlap.h"
 #include "planar/trial_flatten.h"
 #include "surface/carried_map.h"
@@ -83,6 +85,10 @@ Flattening FlatWithoutFinish(const ChartPatch& patch, const Points2* start,
   return flat;
 }
 
+Flattening FlatAsAsked(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll) {
+  return HasFinish(goal) ? FlatWithFinish(patch, goal, poll) : FlatWithoutFinish(patch, nullptr, poll);
+}
+
 bool Reached(const Flattening& flat, const DartGoal& goal) {
   return flat.l2_stretch <= goal.l2_stretch && flat.linf_stretch <= goal.linf_stretch;
 }
@@ -126,7 +132,7 @@ bool CutConePoints(const DartGoal& goal, const std::function<void()>& poll, Dart
   constexpr double kL2PerUnit = 0.005, kNoStretch = 1e-5;
   std::vector<int> points = ConePoints(chart.patch, PatchPaths(chart.patch));
   if (points.empty()) return false;
-  DartedChart darted{{}, 0, chart.patch, {}};
+  DartedChart darted{{}, 0, {}, chart.patch, {}};
   std::vector<int> corner_of;  // a vertex may get another number by a cut, a corner doesn't
   for (int v : points) {
     int h = 0;
@@ -146,6 +152,7 @@ bool CutConePoints(const DartGoal& goal, const std::function<void()>& poll, Dart
     const std::vector<int> cut = paths.Path(darted.patch.Vertex(*nearest));
     darted.edges.insert(darted.edges.end(), cut.begin(), cut.end());
     darted.count += !cut.empty();  // a dart may have run through it
+    darted.tips.push_back(*nearest);
     darted.patch = CutOpen(darted.patch, cut);
     corner_of.erase(nearest);
   }
@@ -215,7 +222,7 @@ class DartSearch {
     for (int tip : tips) {
       const double length = paths.Distance(chart_.patch.Vertex(tip));
       DartedChart trial;
-      if (useless_[tip] || !Try(paths.Path(chart_.patch.Vertex(tip)), length, trial)) {
+      if (useless_[tip] || !Try(tip, paths.Path(chart_.patch.Vertex(tip)), length, trial)) {
         useless_[tip] = 1;
         continue;
       }
@@ -228,6 +235,7 @@ class DartSearch {
     }
     if (best.count == 0) return false;
     best.edges.insert(best.edges.begin(), chart_.edges.begin(), chart_.edges.end());
+    best.tips.insert(best.tips.begin(), chart_.tips.begin(), chart_.tips.end());
     best.count += chart_.count;
     chart_ = std::move(best);
     plain_.reset();
@@ -236,8 +244,8 @@ class DartSearch {
   }
 
   // One more dart; false when it doesn't help.
-  bool Try(const std::vector<int>& cut, double length, DartedChart& trial) {
-    trial = {cut, 1, CutOpen(chart_.patch, cut), {}};
+  bool Try(int tip, const std::vector<int>& cut, double length, DartedChart& trial) {
+    trial = {cut, 1, {tip}, CutOpen(chart_.patch, cut), {}};
     // Most darts don't help, which shows in a map without the finish, made from the one the chart has.
     if (!plain_) {
       plain_ = HasFinish(goal_) ? FlatWithoutFinish(chart_.patch, &chart_.flat.uv, poll_) : chart_.flat;
@@ -286,17 +294,47 @@ bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, 
   return chart.flat.l2_stretch <= goal.l2_stretch;
 }
 
+// A large chart gets the darts that a coarser one gets: each to the same vertex, along the shortest way there
+// is here. A chart without them when they don't serve here.
+DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll) {
+  constexpr int kEnoughFaces = 20000;
+  constexpr double kHopeless = 1.2;  // of the goal's L2 - 1
+  DartedChart chart;
+  chart.patch = patch;
+  const CoarseChart coarse(patch.mesh, kEnoughFaces);
+  if (!IsLargeChart(coarse.Mesh())) {
+    const DartedChart darted =
+        CutStretchDarts({coarse.SourceFaces(), coarse.Mesh(), coarse.Opposite()}, nullptr, goal, poll);
+    if (goal.may_give_up && !(darted.flat.l2_stretch - 1 <= kHopeless * (goal.l2_stretch - 1))) {
+      chart.flat.why = "A coarser chart is stretched too much.";
+      return chart;
+    }
+    std::vector<int> corner_at(patch.VertexCount());  // that starts at a vertex
+    for (int h = 0; h < patch.HalfEdgeCount(); ++h) corner_at[patch.Vertex(h)] = h;
+    for (int tip : darted.tips) {
+      const int vertex = coarse.SourceVertices()[coarse.Mesh().triangles(tip / 3, tip % 3)];
+      PatchPaths paths(chart.patch);
+      paths.Run(paths.BoundaryVertices(), true);
+      chart.tips.push_back(corner_at[vertex]);
+      const std::vector<int> cut = paths.Path(chart.patch.Vertex(chart.tips.back()));
+      chart.edges.insert(chart.edges.end(), cut.begin(), cut.end());
+      chart.count += !cut.empty();
+      chart.patch = CutOpen(chart.patch, cut);
+    }
+  }
+  chart.flat = FlatAsAsked(chart.patch, goal, poll);
+  if (chart.count == 0 || (chart.flat.ok && !Overlaps(chart))) return chart;
+  return {{}, 0, {}, patch, FlatAsAsked(patch, goal, poll)};
+}
+
 }  // namespace
 
 DartedChart CutStretchDarts(const ChartPatch& patch, const Flattening* known, const DartGoal& goal,
                             const std::function<void()>& poll) {
+  if (IsLargeChart(patch.mesh)) return CutLargeChart(patch, goal, poll);
   DartedChart chart;
   chart.patch = patch;
-  if (known)
-    chart.flat = *known;
-  else
-    chart.flat =
-        HasFinish(goal) ? FlatWithFinish(patch, goal, poll) : FlatWithoutFinish(patch, nullptr, poll);
+  chart.flat = known ? *known : FlatAsAsked(patch, goal, poll);
   if (!chart.flat.ok || CutConePoints(goal, poll, chart)) return chart;
   if (HasFinish(goal) && chart.flat.l2_stretch > goal.l2_stretch && !CutForMeanStretch(goal, poll, chart))
     return chart;

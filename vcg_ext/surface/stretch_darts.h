@@ -15,6 +15,8 @@ struct DartGoal {
   double linf_stretch = 1;  ///< the same
   double longest = 0;       ///< bound on a dart's length, model units
   int most_darts = 12;
+  /// A large chart that a coarser one shows to stay above `l2_stretch` may be left unflattened.
+  bool may_give_up = false;
   double unit =
       1;  ///< the length of dart for which the Linf stretch has to fall by kLinfPerUnit, model units
 };
@@ -23,6 +25,7 @@ struct DartGoal {
 struct DartedChart {
   std::vector<int> edges;  ///< half-edges of the patch to cut, one per edge
   int count = 0;           ///< darts
+  std::vector<int> tips;   ///< of each cut, a half-edge of the patch that starts where it ends; in order
   ChartPatch patch;        ///< cut open
   Flattening flat;         ///< of `patch`
 };

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/half_edge.h"
+
 namespace dcharts {
 
 /// What the stages ask of a mesh, face by face, in flat arrays. READS the mesh's coordinates and face-face
@@ -137,9 +139,5 @@ class SurfaceGraph {
   double total_area_ = 0, odd_edges_length_ = 0;
   std::vector<std::pair<int, int>> parted_;
 };
-
-/// The half-edge before / after `h` in its face.
-inline int Next(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
-inline int Previous(int h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 }  // namespace dcharts

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/errors.h"
+#include "surface/face_order.h"
 
 namespace dcharts {
 namespace {
@@ -41,6 +42,7 @@ BuiltSurface BuildSurface(const SurfaceData& data, SurfaceMesh& mesh) {
   built.source_face.reserve(data.faces.size());
   for (int f = 0; f < static_cast<int>(data.faces.size()); ++f)
     if (!HasRepeatedVertex(data.faces[f])) built.source_face.push_back(f);
+  SortForMemory(data, built.source_face);
 
   // Two steps, so that neither the box nor the area leaves the range of double.
   vcg::Box3d box;

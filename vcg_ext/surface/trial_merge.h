@@ -8,6 +8,7 @@
 #include "surface/charts.h"
 #include "surface/checked_merge.h"
 #include "surface/refine_borders.h"
+#include "surface/refine_on_copy.h"
 #include "surface/split_bad_charts.h"
 
 namespace dcharts {
@@ -32,7 +33,10 @@ class TrialMerger {
     const std::vector<int> owner = groups.Owners();
     for (int& id : ids) id = owner[id];
     SplitAndCompact(surface_, ids);
-    BorderRefiner<MeshType>(surface_, params_, progress_).Run(ids);
+    if (parts.Fine().Graph().FaceCount() < surface_.FaceCount())
+      RefineBordersOnCopy(surface_, parts.Fine(), params_, progress_, ids);
+    else
+      BorderRefiner<MeshType>(surface_, params_, progress_).Run(ids);
   }
 
   /// What ChartGroups::Cost() would be after Run(), by trials on the coarse copy alone: only to compare

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "surface/charts.h"
-#include "surface/coarsen_connectivity.h"
+#include "common/chart_ids.h"
+#include "planar/collapsing_mesh.h"
 
 namespace dcharts {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "surface/coarsen_connectivity.h"
+#include "planar/collapsing_mesh.h"
 
 #include <utility>
 
-#include "surface/surface_graph.h"
+#include "common/half_edge.h"
 
 namespace dcharts {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "surface/coarsen_borders.h"
+#include "planar/border_lines.h"
 
+#include "common/half_edge.h"
 #include "common/union_find.h"
 
 namespace dcharts {

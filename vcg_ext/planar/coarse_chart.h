@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "planar/chart_mesh.h"
+#include "planar/coarsener.h"
+#include "planar/complex_plane.h"
+
+namespace dcharts {
+
+/// A chart with fewer triangles, whose maps can be continued to the chart itself: the collapses are taken
+/// back one by one in the plane [Hormann, Greiner, Campagna, "Hierarchical Parametrization of Triangulated
+/// Surfaces", 1999].
+class CoarseChart {
+ public:
+  /// `chart` must have an area of about 1 and outlive this object.
+  CoarseChart(const ChartMesh& chart, int target_faces);
+
+  const ChartMesh& Mesh() const { return mesh_; }
+  const std::vector<int>& SourceVertices() const { return source_; }    ///< of the chart, per vertex
+  const std::vector<int>& SourceFaces() const { return source_face_; }  ///< ascending, per triangle
+  const std::vector<int>& Opposite() const { return opposite_; }        ///< per half-edge, -1 at a border
+
+  /// A map of the chart without flipped triangles; `uv` (#V of Mesh() by 2) must have none, and be about as
+  /// large as the surface. Each vertex comes to where the triangles that it has then cost least. Nothing
+  /// when there is no room for one, which only rounding makes so.
+  std::optional<PlanePoints> Continued(const Points2& uv, const std::function<void()>& poll) const;
+
+ private:
+  const ChartMesh& chart_;
+  ChartMesh mesh_;
+  std::vector<int> source_, source_face_, opposite_;
+  CollapseHistory history_;
+};
+
+}  // namespace dcharts

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "planar/map_from_coarser.h"
+
+#include "planar/coarse_chart.h"
+#include "planar/vertex_descent.h"
+
+namespace dcharts {
+
+bool IsLargeChart(const ChartMesh& chart) {
+  constexpr int kManyTriangles = 30000;
+  return chart.triangles.rows() > kManyTriangles;
+}
+
+std::optional<PlanePoints> MapFromCoarser(const ChartMesh& chart,
+                                          const std::function<Points2(const ChartMesh&)>& flatten,
+                                          const std::function<void()>& poll, RestShapes& shapes) {
+  constexpr int kCoarser = 4;  // times fewer triangles
+  if (poll) poll();
+  const CoarseChart coarse(chart, static_cast<int>(chart.triangles.rows()) / kCoarser);
+  if (2 * coarse.Mesh().triangles.rows() > chart.triangles.rows()) return std::nullopt;
+  const Points2 flat = flatten(coarse.Mesh());
+  if (flat.rows() == 0) return std::nullopt;
+  std::optional<PlanePoints> uv = coarse.Continued(flat, poll);
+  if (!uv) return std::nullopt;
+  RelaxSlivers(chart.triangles, *uv, shapes);
+  VertexSweeps(static_cast<int>(uv->size()), chart.triangles, shapes).EvenOut(poll, *uv);
+  return uv;
+}
+
+}  // namespace dcharts
