@@ -20,7 +20,7 @@ mkdir "$work/include"
 ln -s /usr/include/boost /usr/include/hpdf*.h /usr/include/png*.h "$work/include"
 
 compile() {
-  "$compiler" -std=c++17 -Wall -Wextra -Wshadow -Werror -DNOMINMAX -DEIGEN_DONT_PARALLELIZE -Ivcg_ext -Ifilter_dcharts \
+  "$compiler" -std=c++17 -Wall -Wextra -Werror -DNOMINMAX -DEIGEN_DONT_PARALLELIZE -Ivcg_ext -Ifilter_dcharts \
     -Imeshes -isystem "$work/include" -isystem /usr/include/eigen3 -isystem "$vcglib" "$@"
 }
 # $1 is checked; what the compiler says comes out in one piece.

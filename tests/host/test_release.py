@@ -18,7 +18,6 @@ ALL_HOSTS = ('pymeshlab', '2025', '2020')
 
 
 def run(*command, **options):
-    """Without git: a program of that name that fails is the first on the path."""
     done = subprocess.run([*map(str, command)], stdin=subprocess.DEVNULL, capture_output=True, text=True, **options)
     assert done.returncode == 0, f'{command}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}'
     return done.stdout
@@ -26,7 +25,7 @@ def run(*command, **options):
 
 @pytest.fixture(scope='module')
 def no_git(tmp_path_factory):
-    """An environment where git can't be used."""
+    """An environment where git can't be used: a program of that name that fails is the first on the path."""
     folder = tmp_path_factory.mktemp('no-git')
     (folder / 'git').write_text('#!/bin/sh\necho "git was called: $*" >&2\nexit 1\n')
     (folder / 'git').chmod(0o755)
@@ -82,6 +81,19 @@ def test_the_source_package_for_pip_has_all_that_is_built(release, no_git, tmp_p
     targets = configure(folder, tmp_path / 'build', no_git, '-DDCHARTS_PLUGIN_2025=OFF', '-DDCHARTS_PLUGIN_2020=OFF',
                       '-DDCHARTS_BUILD_TESTS=OFF')
     assert 'libfilter_dcharts_pymeshlab.so:' in targets
+
+
+def test_what_does_not_compile_for_windows_is_said(tmp_path):
+    """The check itself; scripts/test.sh runs it for all files."""
+    check = ('bash', str(ROOT / 'scripts' / 'check-mingw.sh'))
+    right = tmp_path / 'right.cpp'
+    right.write_text('#include <thread>\n#include <hpdf.h>\n#include "runner.h"\nstd::thread thread;\n')
+    run(*check, right)
+    wrong = tmp_path / 'wrong.cpp'
+    wrong.write_text('#include <sys/resource.h>\n')
+    done = subprocess.run([*check, str(right), str(wrong)], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    assert done.returncode == 1
+    assert f'{wrong} does not compile for Windows' in done.stdout and str(right) not in done.stdout
 
 
 @pytest.fixture
