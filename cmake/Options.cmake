@@ -16,8 +16,13 @@ endif()
 # Eigen's own threads would make sums depend on their number.
 add_compile_definitions(EIGEN_DONT_PARALLELIZE)
 
+if(WIN32)
+  add_compile_definitions(NOMINMAX) # else its headers take the names min and max
+endif()
+
 add_library(dcharts_options INTERFACE)
 if(MSVC)
+  add_compile_options(/bigobj /utf-8) # templates of Eigen make many sections; texts in the code are UTF-8
   target_compile_options(dcharts_options INTERFACE /W4 /permissive- /fp:precise)
 else()
   # No fused multiply-add: the same input gives the same bytes whatever the processor has.

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Sets everything up, builds the plugin for every host, and runs every test: format, unit tests (also with sanitizers),
-# and the hosts. usage: bash scripts/test.sh
+# Sets everything up, builds the plugin for every host, and runs every test: format, syntax for Windows, unit tests
+# (also with sanitizers), and the hosts. usage: bash scripts/test.sh
 # Screenshots of the GUIs are left in out/screenshots. The exit code is 0 when nothing failed.
 set -euo pipefail
 # shellcheck source=setup.sh
@@ -9,7 +9,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 cd "$repo"
 
 ensure_apt_packages "${build_packages[@]}" libgtest-dev meshlab xvfb xauth openbox xdotool debootstrap \
-  libgl1-mesa-dri ccache
+  libgl1-mesa-dri ccache git g++-mingw-w64-x86-64-posix
 # The plugin for pymeshlab compiles what build/ has compiled already.
 export CMAKE_CXX_COMPILER_LAUNCHER=ccache
 ensure_build -DDCHARTS_BUILD_TESTS=ON
@@ -51,6 +51,7 @@ sanitized_unit_tests() {
 }
 
 step "format of the C++ code" check_format
+step "syntax for Windows (MinGW)" bash scripts/check-mingw.sh
 step "unit tests, examples" ctest --test-dir "$build" --output-on-failure -j 2
 step "unit tests and fuzzer with sanitizers" sanitized_unit_tests
 # Last, so that the runner's own summary is the last line.

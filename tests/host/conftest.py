@@ -2,7 +2,9 @@
 import ctypes
 import os
 import pathlib
+import shutil
 import sys
+import tempfile
 
 import pytest
 
@@ -10,7 +12,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
 from cases import ROOT, SHARED_MESHES  # noqa: E402
 from forky import root_folder  # noqa: E402
-from hosts import Meshlab2020, NotHere  # noqa: E402
+from hosts import Meshlab2020, NotHere, install  # noqa: E402
 from xsession import XSession, missing_tools  # noqa: E402
 
 
@@ -48,6 +50,19 @@ def forky():
         return root_folder()
     except NotHere as reason:
         pytest.skip(str(reason))
+
+
+@pytest.fixture(scope='module')
+def forky_home(forky):
+    """A home folder in the forky folder, with the plugin in it."""
+    home = forky / 'root' / tempfile.mkdtemp(prefix='home-', dir=forky / 'root')
+    try:
+        (home / '.local/share/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins/2025.07').mkdir(parents=True)
+        run = install(home=home)
+        assert run.returncode == 0, run.stderr
+        yield home
+    finally:
+        shutil.rmtree(home)
 
 
 @pytest.fixture(scope='session')

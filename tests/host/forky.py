@@ -12,7 +12,7 @@ from hosts import CACHE, NotHere
 ROOT_FOLDER = CACHE / 'forky-meshlab'
 # MeshLab, what its plugins need but its package does not ask for, and what ours needs.
 PACKAGES = ('meshlab', 'libgomp1', 'libmuparser2v5', 'libqhull-r8.0', 'lib3ds-1-3', 'libopenctm1', 'libhpdf-2.3.0')
-SECONDS = 240  # for each of the two steps
+SECONDS = 600  # for each of the two steps, which take half a minute where nothing else runs
 LAST_LIBRARY = pathlib.Path('usr/lib/x86_64-linux-gnu/libhpdf-2.3.0.so')  # of the last package
 PLUGINS = pathlib.Path('usr/lib/x86_64-linux-gnu/meshlab/plugins')
 

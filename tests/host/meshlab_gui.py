@@ -12,14 +12,14 @@ import numpy as np
 class MeshlabGui:
     """A running MeshLab on an XSession. What it writes to stderr (its log among it) is in `output`."""
 
-    def __init__(self, session, command, mesh, env=None, seconds=90, first_field=2):
+    def __init__(self, session, command, mesh, env=None, seconds=90, first_field=2, folder=None):
         """`first_field`: how often Tab is pressed from Apply to a filter's first field; 2 in 2020.09, 3 in 2025.07."""
         self.session = session
         self.first_field = first_field
         self.home = tempfile.TemporaryDirectory(prefix='dcharts-home-')  # keeps the user's own settings out
         own_env = {'HOME': self.home.name, 'XDG_RUNTIME_DIR': self.home.name}
         self.process = subprocess.Popen([*map(str, command), str(mesh)], env={**session.env, **own_env, **(env or {})},
-                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors='replace')
+                                        cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors='replace')
         self.lines = []
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
@@ -93,6 +93,48 @@ class MeshlabGui:
         self.session.keys('space')
         self.wait_for_output(f'(?s)(Applied filter:? {re.escape(name)} in.*){{{done + 1}}}', seconds)
         self.session.xdotool('windowunmap', '--sync', window)
+        time.sleep(1)
+
+    def save_script(self, path):
+        """Saves what was applied so far as a filter script, by the dialog of MeshLab's menu."""
+        dialog = self._open_script_dialog()
+        self._press_in_script_dialog('Save Script')
+        self._name_file('Save Filter Script File', path)
+        self.session.xdotool('windowactivate', '--sync', dialog)
+        self.session.keys('Escape')
+
+    def run_script(self, path, last, seconds=240):
+        """Opens a filter script in the dialog of MeshLab's menu, applies it, and waits until its last filter is done."""
+        done = len(re.findall(f'Re-Applied filter {re.escape(last)}', self.output))
+        dialog = self._open_script_dialog()
+        self._press_in_script_dialog('Open Script')
+        self._name_file('Open Filter Script File', path)
+        self.session.xdotool('windowactivate', '--sync', dialog)
+        self._press_in_script_dialog('Apply Script', place='Open Script')
+        self.wait_for_output(f'(?s)(Re-Applied filter {re.escape(last)}.*){{{done + 1}}}', seconds)
+
+    def _open_script_dialog(self):
+        self.session.xdotool('windowactivate', '--sync', self.main_window())
+        self.session.keys('alt+l')
+        time.sleep(0.5)
+        # The entry before it, for the last filter again, is there as soon as one was applied by its own dialog.
+        self.session.keys(*['Down'] * bool(re.search('(?<!Re-)Applied filter', self.output)), 'Return')
+        return self.session.wait_for_window('Dialog')
+
+    def _press_in_script_dialog(self, button, place='the list'):
+        """The dialog's fields by Tab; `place` has the focus."""
+        order = ('the list', 'Move Up', 'Move Down', 'Remove', 'Edit Parameters', 'Save Script', 'Open Script',
+                 'Clear Script', 'Apply Script', 'Close')
+        time.sleep(0.5)
+        self._step(order.index(button) - order.index(place))
+        self.session.keys('space')
+
+    def _name_file(self, title, path):
+        self.session.wait_for_window(title)
+        time.sleep(0.5)
+        self.session.keys('ctrl+a')
+        self.session.write(str(path))
+        self.session.keys('Return')
         time.sleep(1)
 
     def _step(self, count):

@@ -2,14 +2,12 @@
 """The files of a pattern from every host: SVG, PDF and DXF, byte for byte those of pymeshlab, which are looked into
 elsewhere."""
 import shutil
-import tempfile
 import xml.etree.ElementTree as ElementTree
 
 import pytest
 
 from cases import ROOT
 from forky import inside
-from hosts import install
 from made_patterns import ENDINGS, MODELS, SIZE, made_pattern
 from meshlab_gui import MeshlabGui
 from mlx import write_script
@@ -70,19 +68,6 @@ def test_gui_2020(screen, meshlab_2020, tmp_path, model_file, expected, screensh
     write_three_files(gui, model, tmp_path, screenshots / f'2020 pattern of {model}.png')
     for ending, content in expected(model).items():
         assert (tmp_path / f'pattern.{ending}').read_bytes() == content, f'another {ending}'
-
-
-@pytest.fixture(scope='module')
-def forky_home(forky):
-    """A home folder in the forky folder, with the plugin in it."""
-    home = forky / 'root' / tempfile.mkdtemp(prefix='home-', dir=forky / 'root')
-    try:
-        (home / '.local/share/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins/2025.07').mkdir(parents=True)
-        run = install(home=home)
-        assert run.returncode == 0, run.stderr
-        yield home
-    finally:
-        shutil.rmtree(home)
 
 
 @pytest.mark.parametrize('model', MODELS)

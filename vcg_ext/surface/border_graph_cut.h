@@ -149,10 +149,10 @@ class BorderGraphCut {
         // Faces that touch the border with a corner too: on a coarse mesh there would be no room else.
         for (int v : {surface_.Vertex(h), surface_.Vertex(Next(h))})
           for (const int* r = surface_.RingBegin(v); r != surface_.RingEnd(v); ++r) {
-            const int near = *r / 3;
-            if (face_stamp_[near] == stamp_ || (ids[near] != a && ids[near] != b)) continue;
-            face_stamp_[near] = stamp_;
-            sources_.push_back(near);
+            const int neighbor = *r / 3;
+            if (face_stamp_[neighbor] == stamp_ || (ids[neighbor] != a && ids[neighbor] != b)) continue;
+            face_stamp_[neighbor] = stamp_;
+            sources_.push_back(neighbor);
           }
       }
     }

@@ -27,11 +27,11 @@ class DataCoordinates {
   DataCoordinates(const SurfaceData& data, const SurfaceGraph<SurfaceMesh>& surface) {
     // The scale is that of any long distance.
     const int first = surface.Vertex(0);
-    int far = first;
+    int farthest = first;
     const auto distance = [&](int v) { return (surface.Position(v) - surface.Position(first)).norm(); };
     for (int h = 0; h < surface.HalfEdgeCount(); ++h)
-      if (distance(surface.Vertex(h)) > distance(far)) far = surface.Vertex(h);
-    scale_ = (PositionOf(data, far) - PositionOf(data, first)).norm() / distance(far);
+      if (distance(surface.Vertex(h)) > distance(farthest)) farthest = surface.Vertex(h);
+    scale_ = (PositionOf(data, farthest) - PositionOf(data, first)).norm() / distance(farthest);
     offset_ = PositionOf(data, first) - scale_ * surface.Position(first);
   }
 
