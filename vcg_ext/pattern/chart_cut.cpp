@@ -9,6 +9,7 @@
 
 #include "common/union_find.h"
 #include "pattern/faces_around.h"
+#include "pattern/flip_edges.h"
 #include "pattern/half_edges.h"
 
 namespace dcharts {
@@ -73,6 +74,7 @@ class Cutter {
     const int last = faces_.HalfEdge(last_edge.start, last_edge.end) >= 0 ? PartBoundary(last_edge, to.share)
                                                                           : PartAgain(last_edge);
     PartInside(first, last);
+    FlipEdges(cut_, chart_);
     return TakeApart();
   }
 
