@@ -178,9 +178,7 @@ class Cutter {
         .transpose();
   }
 
-  bool AreNeighbours(int v, int w) const {
-    return faces_.HalfEdge(v, w) >= 0 && faces_.HalfEdge(w, v) >= 0;
-  }
+  bool AreNeighbours(int v, int w) const { return faces_.HalfEdge(v, w) >= 0 && faces_.HalfEdge(w, v) >= 0; }
 
   // Parts the triangles along the line; the edges between the new vertices are the cut.
   void PartInside(int first, int last) {
@@ -306,7 +304,7 @@ class Cutter {
   FlatChart& chart_;
   FacesAround faces_;            // of the chart
   std::vector<char> is_parted_;  // per chart: half-edges have other numbers now
-  std::vector<int> side_;  // per vertex of the chart: of the line; 0 on the cut
+  std::vector<int> side_;        // per vertex of the chart: of the line; 0 on the cut
   std::vector<std::vector<NamedEdge>> edges_;
   std::vector<std::pair<int, int>> cut_;
   UnionFind corners_{0};

@@ -8,8 +8,8 @@
 
 namespace dcharts {
 
-/// Per vertex of a chart the triangles around it, while triangles are parted: half-edges are found by looking at
-/// those alone.
+/// Per vertex of a chart the triangles around it, while triangles are parted: half-edges are found by looking
+/// at those alone.
 class FacesAround {
  public:
   explicit FacesAround(const FlatChart& chart) : chart_(chart), faces_(chart.uv.rows()) {
@@ -31,16 +31,15 @@ class FacesAround {
   /// To be called when the chart has a new vertex, its last.
   void AddVertex() { faces_.emplace_back(); }
 
-  /// To be called when triangle `f` was made two by `vertex` on one of its edges: the other one is the chart's
-  /// last.
+  /// To be called when triangle `f` was made two by `vertex` on one of its edges: the other one is the
+  /// chart's last.
   void AddParted(int f, int vertex) {
     const int g = static_cast<int>(chart_.mesh.triangles.rows()) - 1;
     faces_[vertex].push_back(f);
     for (int k = 0; k < 3; ++k) {
       const int v = chart_.mesh.triangles(g, k);
       faces_[v].push_back(g);
-      if (v != vertex && !HasCorner(f, v))
-        faces_[v].erase(std::find(faces_[v].begin(), faces_[v].end(), f));
+      if (v != vertex && !HasCorner(f, v)) faces_[v].erase(std::find(faces_[v].begin(), faces_[v].end(), f));
     }
   }
 

@@ -55,14 +55,14 @@ class EdgeFlipper {
     const double at_a = Cross(pd - pa, pc - pa), at_b = Cross(pc - pb, pd - pb);
     if (!(std::min(at_a, at_b) > kFlat * longest)) return false;
     // The angles at c and d are more than half a turn together.
-    const double sine = Cross(pa - pc, pb - pc) * (pb - pd).dot(pa - pd) +
-                        Cross(pb - pd, pa - pd) * (pa - pc).dot(pb - pc);
+    const double sine =
+        Cross(pa - pc, pb - pc) * (pb - pd).dot(pa - pd) + Cross(pb - pd, pa - pd) * (pa - pc).dot(pb - pc);
     if (!(sine < -kGain * longest * longest)) return false;
     return IsOneMap(a, b, c, d, at_a / (at_a + at_b));
   }
 
-  // Both diagonals cross in the same point of the model, so that the four corners lie in one plane and are mapped
-  // alike. `along`: of the edge ab, where the other diagonal crosses it.
+  // Both diagonals cross in the same point of the model, so that the four corners lie in one plane and are
+  // mapped alike. `along`: of the edge ab, where the other diagonal crosses it.
   bool IsOneMap(int a, int b, int c, int d, double along) const {
     constexpr double kOff = 1e-9;
     const Point2 at = (1 - along) * At(a) + along * At(b), way = At(d) - At(c);

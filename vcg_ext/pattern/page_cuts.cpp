@@ -61,7 +61,8 @@ class Turns {
     return static_cast<int>(std::clamp(pages, 1.0, static_cast<double>(kMostPages)));
   }
 
-  /// Pages that the points go onto, in rows as high as a page, at the best turn; `enough` when they are not less.
+  /// Pages that the points go onto, in rows as high as a page, at the best turn; `enough` when they are not
+  /// less.
   int FewestPages(const Point2& page, int enough = kMostPages) const {
     int fewest = enough;
     std::vector<Row> rows;
@@ -73,7 +74,7 @@ class Turns {
   static constexpr int kTurns = 36;
 
   struct Row {
-    double bottom = 0, top = 0, left = 0, right = 0;
+    double left = 0, right = 0;
   };
 
   static Point2 Turned(const Point2& p, int t) {
@@ -90,31 +91,29 @@ class Turns {
   int PagesOfRows(int turn, const Point2& page, int fewest, std::vector<Row>& rows) const {
     constexpr double kMostRows = 1000;
     const Point2 low = low_[turn], high = low + size_[turn];
-    const int count = std::max(1, static_cast<int>(std::min(kMostRows, std::ceil(size_[turn].y() / page.y()))));
+    const int count =
+        std::max(1, static_cast<int>(std::min(kMostRows, std::ceil(size_[turn].y() / page.y()))));
     // No row is without a page.
     if (count >= fewest) return fewest;
-    rows.clear();
-    for (int row = 0; row < count; ++row) {
-      const double bottom = low.y() + row * page.y();
-      rows.push_back({bottom, bottom + page.y(), high.x(), low.x()});
-    }
-    // Rows that an edge may reach; one more on either side makes up for rounding.
-    const auto row_at = [&](double y, int more) {
-      return static_cast<int>(std::clamp(std::floor((y - low.y()) / page.y()) + more, 0.0, count - 1.0));
+    rows.assign(count, {high.x(), low.x()});
+    const auto take = [&](int row, double x) {
+      Row& into = rows[std::clamp(row, 0, count - 1)];
+      into.left = std::min(into.left, x);
+      into.right = std::max(into.right, x);
     };
+    const double per_row = 1 / page.y();
     const Point2* points = turned_.data() + static_cast<size_t>(turn) * hull_.size();
     for (size_t k = 0; k < hull_.size(); ++k) {
       const Point2 &a = points[k], &b = points[k + 1 < hull_.size() ? k + 1 : 0];
-      const int last = row_at(std::max(a.y(), b.y()), 1);
-      for (int r = row_at(std::min(a.y(), b.y()), -1); r <= last; ++r) {
-        Row& row = rows[r];
-        const auto take = [&](double x) {
-          row.left = std::min(row.left, x);
-          row.right = std::max(row.right, x);
-        };
-        if (a.y() >= row.bottom && a.y() <= row.top) take(a.x());
-        for (const double y : {row.bottom, row.top})
-          if ((a.y() < y) != (b.y() < y)) take(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+      // In heights of a row. Where an edge goes on to another row it is in both.
+      const double from = (a.y() - low.y()) * per_row, to = (b.y() - low.y()) * per_row;
+      take(static_cast<int>(std::min(kMostRows, from)), a.x());
+      const double slope = (b.x() - a.x()) / (to - from), last = std::min(kMostRows, std::max(from, to));
+      for (int row = static_cast<int>(std::min(from, to)) + 1; row <= last; ++row) {
+        const double x =
+            std::clamp(a.x() + (row - from) * slope, std::min(a.x(), b.x()), std::max(a.x(), b.x()));
+        take(row - 1, x);
+        take(row, x);
       }
     }
     double pages = 0;
@@ -226,8 +225,8 @@ class CutFinder {
       // Most cuts are worse than the best even if either part would go onto a page.
       const double length = opens_hole ? 0 : to->along - from.along;
       if (ends + length + 2 * CostOfPages(1) >= best.cost) continue;
-      const double cost = opens_hole ? CostOfAll(line, crossings, ends, best.cost)
-                                     : Cost(line, from, *to, ends, best.cost);
+      const double cost =
+          opens_hole ? CostOfAll(line, crossings, ends, best.cost) : Cost(line, from, *to, ends, best.cost);
       if (cost < best.cost) best = {line, from, *to, cost};
     }
   }
