@@ -45,6 +45,8 @@ inline bool HasRepeatedVertex(const std::array<int, 3>& face) {
   return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
 }
 
+constexpr double kAreaFloorOfSquare = 1e-14;
+
 /// Faces with less area than this are without area, to rounding.
 inline double AreaFloor(const SurfaceData& mesh) {
   Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
@@ -57,7 +59,7 @@ inline double AreaFloor(const SurfaceData& mesh) {
       }
   }
   const Vec3 size = Minus(high, low);
-  return 1e-14 * Dot(size, size);
+  return kAreaFloorOfSquare * Dot(size, size);
 }
 
 /// Per half-edge 3 f + i the half-edge across, where exactly two faces meet in an edge and agree in
@@ -238,17 +240,19 @@ inline std::vector<std::pair<int, int>> AllOverlaps(const std::vector<GridUv>& t
 /// L2 and Linf stretch of Sander et al. 2001, from the Jacobian in a frame of each triangle's own plane.
 struct Stretch {
   double l2 = 1, linf = 1;
-  double uncertain = 0;  ///< relative error that rounding may make, of the thinnest face's area
+  double uncertain =
+      0;  ///< relative error that rounding of coordinates may make, of the thinnest face's area
 };
 inline Stretch StretchOf(const SurfaceData& mesh, const std::vector<std::array<float, 6>>& uv) {
   double area3 = 0, area2 = 0, squares = 0, worst = 0, thinnest = 0;
-  const double area_floor = AreaFloor(mesh);
+  // Coordinates are rounded to digits of the mesh's size, not of the face's.
+  const double area_floor = AreaFloor(mesh), size = std::sqrt(area_floor / kAreaFloorOfSquare);
   for (size_t f = 0; f < mesh.faces.size(); ++f) {
     const double area = FaceArea(mesh, f);
     if (!(area > area_floor)) continue;
     const Vec3& a = mesh.vertices[mesh.faces[f][0]];
     const Vec3 e = Minus(mesh.vertices[mesh.faces[f][1]], a), g = Minus(mesh.vertices[mesh.faces[f][2]], a);
-    thinnest = std::max(thinnest, std::max(Dot(e, e), Dot(g, g)) / area);
+    thinnest = std::max(thinnest, size * std::max(Norm(e), Norm(g)) / area);
     // Corners in the plane: (0, 0), (length of e, 0), (x, height).
     const double length = Norm(e), x = Dot(e, g) / length, height = 2 * area / length;
     const auto& t = uv[f];

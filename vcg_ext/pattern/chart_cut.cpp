@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "common/union_find.h"
+#include "pattern/faces_around.h"
+#include "pattern/flip_edges.h"
 #include "pattern/half_edges.h"
 
 namespace dcharts {
@@ -16,6 +18,7 @@ namespace {
 // A boundary edge by its vertices: these keep their numbers while triangles are parted.
 struct NamedEdge {
   int chart = 0, start = 0, end = 0;
+  int half_edge = 0;  // as long as no triangle of the chart was parted
 };
 
 int AddBetween(int a, int b, double share, int model_vertex, FlatChart& chart) {
@@ -50,7 +53,12 @@ void PartTriangle(int half_edge, int vertex, FlatChart& chart) {
 class Cutter {
  public:
   Cutter(const PlaneLine& line, int chart, FlatCharts& charts)
-      : line_(line), c_(chart), charts_(charts), chart_(charts.charts[chart]) {
+      : line_(line),
+        c_(chart),
+        charts_(charts),
+        chart_(charts.charts[chart]),
+        faces_(chart_),
+        is_parted_(charts.charts.size(), 0) {
     for (int v = 0; v < static_cast<int>(chart_.uv.rows()); ++v) side_.push_back(SideOf(v));
     for (const auto& edge : charts.edges) {
       edges_.emplace_back();
@@ -63,9 +71,10 @@ class Cutter {
   int Run(const BoundaryCrossing& from, const BoundaryCrossing& to) {
     const NamedEdge first_edge = Named({c_, from.half_edge}), last_edge = Named({c_, to.half_edge});
     const int first = PartBoundary(first_edge, from.share);
-    const int last = Find(chart_, last_edge.start, last_edge.end) >= 0 ? PartBoundary(last_edge, to.share)
-                                                                       : PartAgain(last_edge);
+    const int last = faces_.HalfEdge(last_edge.start, last_edge.end) >= 0 ? PartBoundary(last_edge, to.share)
+                                                                          : PartAgain(last_edge);
     PartInside(first, last);
+    FlipEdges(cut_, chart_);
     return TakeApart();
   }
 
@@ -74,7 +83,18 @@ class Cutter {
 
   NamedEdge Named(const ChartEdge& edge) const {
     const FlatChart& chart = charts_.charts[edge.chart];
-    return {edge.chart, StartOf(chart, edge.half_edge), EndOf(chart, edge.half_edge)};
+    return {edge.chart, StartOf(chart, edge.half_edge), EndOf(chart, edge.half_edge), edge.half_edge};
+  }
+
+  // Of the chart, which has it already.
+  void AddVertex(int side) {
+    side_.push_back(side);
+    faces_.AddVertex();
+  }
+
+  void Part(int half_edge, int vertex) {
+    PartTriangle(half_edge, vertex, chart_);
+    faces_.AddParted(half_edge / 3, vertex);
   }
 
   // Parts a boundary edge of the chart on all the edge's sides; returns the chart's new vertex.
@@ -98,8 +118,13 @@ class Cutter {
       const bool same_way = k == own || start_of(side) == start;
       const int m = AddBetween(side.start, side.end, same_way ? share : 1 - share, next_model_vertex_, chart);
       if (k == own) vertex = m;
-      if (side.chart == c_) side_.push_back(k == own ? 0 : SideOf(m));
-      PartTriangle(Find(chart, side.start, side.end), m, chart);
+      is_parted_[side.chart] = 1;
+      if (side.chart == c_) {
+        AddVertex(k == own ? 0 : SideOf(m));
+        Part(faces_.HalfEdge(side.start, side.end), m);
+      } else {
+        PartTriangle(Find(chart, side.start, side.end), m, chart);
+      }
       edges_[e][k].end = m;
       second[k].start = m;
       if (!same_way) std::swap(edges_[e][k], second[k]);
@@ -114,29 +139,30 @@ class Cutter {
   int PartAgain(const NamedEdge& edge) {
     constexpr double kNear = 1;                      // mm
     int v = static_cast<int>(chart_.uv.rows()) - 1;  // the sides' vertices came last
-    while (Find(chart_, edge.start, v) < 0 || Find(chart_, v, edge.end) < 0) --v;
+    while (faces_.HalfEdge(edge.start, v) < 0 || faces_.HalfEdge(v, edge.end) < 0) --v;
     if (std::abs(line_.Off(chart_.uv.row(v).transpose())) < kNear) {
       side_[v] = 0;
       return v;
     }
     const NamedEdge part =
-        side_[v] == side_[edge.start] ? NamedEdge{c_, v, edge.end} : NamedEdge{c_, edge.start, v};
-    return PartBoundary(part, ShareAt(Find(chart_, part.start, part.end)));
+        side_[v] == side_[edge.start] ? NamedEdge{c_, v, edge.end, -1} : NamedEdge{c_, edge.start, v, -1};
+    return PartBoundary(part, ShareAt(faces_.HalfEdge(part.start, part.end)));
   }
 
   // From a vertex on the line, the half-edge of a triangle there that the line crosses next; -1: none.
   int NextCrossed(int vertex) const {
     int nearest = -1;
     double least = 0;
-    for (int h = 0; h < 3 * static_cast<int>(chart_.mesh.triangles.rows()); ++h) {
-      if (chart_.mesh.triangles(h / 3, (h + 2) % 3) != vertex) continue;
-      if (side_[StartOf(chart_, h)] * side_[EndOf(chart_, h)] >= 0) continue;
-      const double along = line_.direction.dot(Crossing(h) - Point2(chart_.uv.row(vertex).transpose()));
-      if (nearest < 0 || along < least) {
-        nearest = h;
-        least = along;
+    for (const int f : faces_.Around(vertex))
+      for (int h = 3 * f; h < 3 * f + 3; ++h) {
+        if (chart_.mesh.triangles(f, (h + 2) % 3) != vertex) continue;
+        if (side_[StartOf(chart_, h)] * side_[EndOf(chart_, h)] >= 0) continue;
+        const double along = line_.direction.dot(Crossing(h) - Point2(chart_.uv.row(vertex).transpose()));
+        if (nearest < 0 || along < least || (along == least && h < nearest)) {
+          nearest = h;
+          least = along;
+        }
       }
-    }
     return nearest;
   }
 
@@ -152,7 +178,7 @@ class Cutter {
         .transpose();
   }
 
-  bool AreNeighbours(int v, int w) const { return Find(chart_, v, w) >= 0 && Find(chart_, w, v) >= 0; }
+  bool AreNeighbours(int v, int w) const { return faces_.HalfEdge(v, w) >= 0 && faces_.HalfEdge(w, v) >= 0; }
 
   // Parts the triangles along the line; the edges between the new vertices are the cut.
   void PartInside(int first, int last) {
@@ -161,13 +187,13 @@ class Cutter {
       const int h = NextCrossed(vertex);
       if (h < 0) break;
       const int start = StartOf(chart_, h), end = EndOf(chart_, h);
-      const int across = Find(chart_, end, start);
+      const int across = faces_.HalfEdge(end, start);
       if (across < 0) break;
       const double share = ShareAt(h);
       const int m = AddBetween(start, end, share, next_model_vertex_++, chart_);
-      side_.push_back(0);
-      PartTriangle(h, m, chart_);
-      PartTriangle(across, m, chart_);
+      AddVertex(0);
+      Part(h, m);
+      Part(across, m);
       cut_.push_back({vertex, m});
       vertex = m;
     }
@@ -195,6 +221,10 @@ class Cutter {
       for (const NamedEdge& side : edge) {
         if (side.chart == c_) {
           charts_.edges.back().push_back(place(half_edges.at({side.start, side.end})));
+          continue;
+        }
+        if (!is_parted_[side.chart]) {
+          charts_.edges.back().push_back({side.chart, side.half_edge});
           continue;
         }
         if (others[side.chart].empty()) others[side.chart] = HalfEdges(charts_.charts[side.chart]);
@@ -272,7 +302,9 @@ class Cutter {
   int c_;
   FlatCharts& charts_;
   FlatChart& chart_;
-  std::vector<int> side_;  // per vertex of the chart: of the line; 0 on the cut
+  FacesAround faces_;            // of the chart
+  std::vector<char> is_parted_;  // per chart: half-edges have other numbers now
+  std::vector<int> side_;        // per vertex of the chart: of the line; 0 on the cut
   std::vector<std::vector<NamedEdge>> edges_;
   std::vector<std::pair<int, int>> cut_;
   UnionFind corners_{0};

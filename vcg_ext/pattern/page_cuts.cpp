@@ -23,16 +23,20 @@ namespace {
 /// Points turned by steps of half a turn; their hull is all that matters.
 class Turns {
  public:
+  static constexpr int kMostPages = 1000000;
+
   explicit Turns(const Polyline& points) : hull_(ConvexHull(points)) {
+    turned_.reserve(kTurns * hull_.size());
     for (int t = 0; t < kTurns; ++t) {
       Point2 low = Point2::Constant(std::numeric_limits<double>::infinity()), high = -low;
       for (const Point2& p : hull_) {
         const Point2 turned = Turned(p, t);
+        turned_.push_back(turned);
         low = low.cwiseMin(turned);
         high = high.cwiseMax(turned);
       }
-      low_.push_back(low);
-      size_.emplace_back(high - low);
+      low_[t] = low;
+      size_[t] = high - low;
     }
   }
 
@@ -50,16 +54,28 @@ class Turns {
     return -kPi * longest / kTurns;
   }
 
-  /// Pages that the points go onto, in rows as high as a page, at the best turn.
-  int FewestPages(const Point2& page) const {
-    int fewest = static_cast<int>(kMostPages);
-    for (int t = 0; t < kTurns; ++t) fewest = PagesOfRows(t, page, fewest);
+  /// Of no turn there are fewer pages: those that have the area of the hull together.
+  int LeastPages(const Point2& page) const {
+    constexpr double kRounding = 1e-9;
+    const double pages = std::ceil((1 - kRounding) * SignedArea(hull_) / page.prod());
+    return static_cast<int>(std::clamp(pages, 1.0, static_cast<double>(kMostPages)));
+  }
+
+  /// Pages that the points go onto, in rows as high as a page, at the best turn; `enough` when they are not
+  /// less.
+  int FewestPages(const Point2& page, int enough = kMostPages) const {
+    int fewest = enough;
+    std::vector<Row> rows;
+    for (int t = 0; t < kTurns; ++t) fewest = PagesOfRows(t, page, fewest, rows);
     return fewest;
   }
 
  private:
   static constexpr int kTurns = 36;
-  static constexpr double kMostPages = 1e6;
+
+  struct Row {
+    double left = 0, right = 0;
+  };
 
   static Point2 Turned(const Point2& p, int t) {
     static const std::array<Point2, kTurns> turns = [] {
@@ -71,35 +87,42 @@ class Turns {
     return {c * p.x() - s * p.y(), s * p.x() + c * p.y()};
   }
 
-  // Pages at a turn, or `fewest` when there are not less.
-  int PagesOfRows(int turn, const Point2& page, int fewest) const {
+  // Pages at a turn, or `fewest` when there are not less. `rows` is room to work in.
+  int PagesOfRows(int turn, const Point2& page, int fewest, std::vector<Row>& rows) const {
+    constexpr double kMostRows = 1000;
     const Point2 low = low_[turn], high = low + size_[turn];
-    const int rows = std::max(1, static_cast<int>(std::min(1000.0, std::ceil(size_[turn].y() / page.y()))));
+    const int count =
+        std::max(1, static_cast<int>(std::min(kMostRows, std::ceil(size_[turn].y() / page.y()))));
     // No row is without a page.
-    if (rows >= fewest) return fewest;
-    Polyline turned;
-    for (const Point2& p : hull_) turned.push_back(Turned(p, turn));
-    double pages = 0;
-    for (int row = 0; row < rows && pages < fewest; ++row) {
-      const double bottom = low.y() + row * page.y(), top = bottom + page.y();
-      double left = high.x(), right = low.x();
-      const auto take = [&](double x) {
-        left = std::min(left, x);
-        right = std::max(right, x);
-      };
-      for (size_t k = 0; k < turned.size(); ++k) {
-        const Point2 &a = turned[k], &b = turned[k + 1 < turned.size() ? k + 1 : 0];
-        if (a.y() >= bottom && a.y() <= top) take(a.x());
-        for (const double y : {bottom, top})
-          if ((a.y() < y) != (b.y() < y)) take(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+    if (count >= fewest) return fewest;
+    rows.assign(count, {high.x(), low.x()});
+    const auto take = [&](int row, double x) {
+      Row& into = rows[std::clamp(row, 0, count - 1)];
+      into.left = std::min(into.left, x);
+      into.right = std::max(into.right, x);
+    };
+    const double per_row = 1 / page.y();
+    const Point2* points = turned_.data() + static_cast<size_t>(turn) * hull_.size();
+    for (size_t k = 0; k < hull_.size(); ++k) {
+      const Point2 &a = points[k], &b = points[k + 1 < hull_.size() ? k + 1 : 0];
+      // In heights of a row. Where an edge goes on to another row it is in both.
+      const double from = (a.y() - low.y()) * per_row, to = (b.y() - low.y()) * per_row;
+      take(static_cast<int>(std::min(kMostRows, from)), a.x());
+      const double slope = (b.x() - a.x()) / (to - from), last = std::min(kMostRows, std::max(from, to));
+      for (int row = static_cast<int>(std::min(from, to)) + 1; row <= last; ++row) {
+        const double x =
+            std::clamp(a.x() + (row - from) * slope, std::min(a.x(), b.x()), std::max(a.x(), b.x()));
+        take(row - 1, x);
+        take(row, x);
       }
-      pages += std::max(1.0, std::ceil((right - left) / page.x()));
     }
+    double pages = 0;
+    for (const Row& row : rows) pages += std::max(1.0, std::ceil((row.right - row.left) / page.x()));
     return pages < fewest ? static_cast<int>(pages) : fewest;
   }
 
-  Polyline hull_;
-  std::vector<Point2> low_, size_;
+  Polyline hull_, turned_;  // turned_: the hull at each turn, one after the other
+  std::array<Point2, kTurns> low_, size_;
 };
 
 /// Whether `at` lies on the way from one point to the other.
@@ -202,7 +225,8 @@ class CutFinder {
       // Most cuts are worse than the best even if either part would go onto a page.
       const double length = opens_hole ? 0 : to->along - from.along;
       if (ends + length + 2 * CostOfPages(1) >= best.cost) continue;
-      const double cost = (opens_hole ? CostOfAll(line, crossings) : Cost(line, from, *to)) + ends;
+      const double cost =
+          opens_hole ? CostOfAll(line, crossings, ends, best.cost) : Cost(line, from, *to, ends, best.cost);
       if (cost < best.cost) best = {line, from, *to, cost};
     }
   }
@@ -224,19 +248,56 @@ class CutFinder {
   }
 
   // Nobody wants slivers.
-  double CostOfPart(const Polyline& part) const {
+  double SliverOf(double width) const {
     constexpr double kNarrow = 0.35;
-    const Turns turns(part);
-    const double width = turns.Width();
-    if (width < least_width_) return std::numeric_limits<double>::infinity();
-    const double sliver = std::max(0.0, 1 - width / (kNarrow * page_.minCoeff()));
-    return CostOfPages(turns.FewestPages(page_) + sliver);
+    return std::max(0.0, 1 - width / (kNarrow * page_.minCoeff()));
+  }
+
+  // The pages of a part from which on `cost` of them is not below the bound; `cost` never falls.
+  template <class CostOf>
+  static int EnoughPages(const CostOf& cost, double bound) {
+    int low = 0, high = Turns::kMostPages;
+    while (low < high) {
+      const int middle = low + (high - low) / 2;
+      if (cost(middle) < bound)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    return low;
+  }
+
+  // `seam` and `ends` with what the parts cost; or infinity where that is not below the bound. Most cuts are
+  // not, and that shows long before the pages of both parts are counted.
+  double CostOfParts(double seam, double ends, const std::array<Polyline, 2>& parts, double bound) const {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    const std::array<Turns, 2> turns = {Turns(parts[0]), Turns(parts[1])};
+    std::array<double, 2> sliver{}, cost{};
+    for (const int k : {0, 1}) {
+      const double width = turns[k].Width();
+      if (width < least_width_) return kNone;
+      sliver[k] = SliverOf(width);
+      cost[k] = CostOfPages(turns[k].LeastPages(page_) + sliver[k]);
+    }
+    const auto total = [&] { return seam + cost[0] + cost[1] + ends; };
+    for (const int k : {0, 1}) {
+      const auto with = [&](int pages) {
+        cost[k] = CostOfPages(pages + sliver[k]);
+        return total();
+      };
+      const int enough = EnoughPages(with, bound);
+      const int pages = turns[k].FewestPages(page_, enough);
+      if (pages >= enough && enough < Turns::kMostPages) return kNone;
+      with(pages);
+    }
+    return total();
   }
 
   // Of a cut from a loop to itself, which parts the chart.
-  double Cost(const PlaneLine& line, const BoundaryCrossing& from, const BoundaryCrossing& to) const {
+  double Cost(const PlaneLine& line, const BoundaryCrossing& from, const BoundaryCrossing& to, double ends,
+              double bound) const {
     const int own = place_[from.half_edge].first, size = static_cast<int>(loops_[own].size());
-    Polyline parts[2];
+    std::array<Polyline, 2> parts;
     for (const bool second : {false, true}) {
       const BoundaryCrossing &begin = second ? to : from, &end = second ? from : to;
       Polyline& part = parts[second];
@@ -248,7 +309,7 @@ class CutFinder {
       part.push_back(line.at + end.along * line.direction);
     }
     // The other loops are in the part around them. Of a hole that is cut across, one part is all around it.
-    const Polyline outlines[2] = {parts[0], parts[1]};
+    const std::array<Polyline, 2> outlines = parts;
     for (int l = 0; l < static_cast<int>(loops_.size()); ++l) {
       if (l == own) continue;
       bool second = SignedArea(outlines[1]) < 0;
@@ -256,20 +317,21 @@ class CutFinder {
         if (SignedArea(outlines[part]) > 0 && IsInside(outlines[part], loops_[l].front())) second = part;
       parts[second].insert(parts[second].end(), loops_[l].begin(), loops_[l].end());
     }
-    return to.along - from.along + CostOfPart(parts[0]) + CostOfPart(parts[1]);
+    return CostOfParts(to.along - from.along, ends, parts, bound);
   }
 
   // Of the whole line: a cut to a hole parts nothing yet, but with the ones after it does.
-  double CostOfAll(const PlaneLine& line, const std::vector<BoundaryCrossing>& crossings) const {
-    double cost = 0;
-    Polyline parts[2];
+  double CostOfAll(const PlaneLine& line, const std::vector<BoundaryCrossing>& crossings, double ends,
+                   double bound) const {
+    double seam = 0;
+    std::array<Polyline, 2> parts;
     for (const BoundaryCrossing& crossing : crossings) {
-      cost += crossing.leaving ? crossing.along : -crossing.along;
+      seam += crossing.leaving ? crossing.along : -crossing.along;
       for (Polyline& part : parts) part.push_back(line.at + crossing.along * line.direction);
     }
     for (const Polyline& loop : loops_)
       for (const Point2& p : loop) parts[line.Off(p) >= 0].push_back(p);
-    return cost + CostOfPart(parts[0]) + CostOfPart(parts[1]);
+    return CostOfParts(seam, ends, parts, bound);
   }
 
   const FlatChart& chart_;
