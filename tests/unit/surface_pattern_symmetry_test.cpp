@@ -8,9 +8,9 @@
 
 #include "dcharts.h"
 #include "pattern/pattern.h"
+#include "pattern/surface/mirror_plane.h"
 #include "pattern/surface/smooth_seams.h"
 #include "pattern/surface/symmetric_mesh.h"
-#include "pattern/surface/symmetry.h"
 #include "shapes.h"
 #include "surface_fixture.h"
 
@@ -65,13 +65,15 @@ TEST(PatternSymmetry, ASymmetricMeshIsItsOwnImage) {
   const auto mirror = FindMirrorPlane(*surface);
   ASSERT_TRUE(mirror.has_value());
   const SymmetricMesh symmetric = MakeSymmetricMesh(data, *surface, *mirror);
-  ASSERT_EQ(symmetric.mesh.faces.size(), 2u * symmetric.half);
+  ASSERT_EQ(symmetric.mesh.faces.size(), 2u * symmetric.halves.half);
   const TestSurface again(symmetric.mesh);
-  const MirrorPlane exact = ExactMirrorPlane(symmetric.half, *again);
+  const auto exact = FindMirrorPlane(*again);
+  ASSERT_TRUE(exact.has_value());
   int borders = 0;
   for (int f = 0; f < again->FaceCount(); ++f) {
-    EXPECT_LT((exact.Mirrored(again->Centroid(f)) - again->Centroid(exact.image[f])).norm(), 1e-9);
-    EXPECT_NEAR(again->Area(f), again->Area(exact.image[f]), 1e-12);
+    const int image = symmetric.halves.ImageOf(f);
+    EXPECT_LT((exact->Mirrored(again->Centroid(f)) - again->Centroid(image)).norm(), 1e-9);
+    EXPECT_NEAR(again->Area(f), again->Area(image), 1e-12);
     for (int h = 3 * f; h < 3 * f + 3; ++h) borders += again->Opposite(h) < 0;
   }
   EXPECT_EQ(borders, 0);  // closed, as the bear is

@@ -7,6 +7,7 @@
 
 #include "pattern/surface/coarse_mesh.h"
 #include "pattern/surface/data_coordinates.h"
+#include "pattern/surface/mirror_plane.h"
 #include "pattern/surface/same_shape.h"
 #include "pattern/surface/symmetric_mesh.h"
 #include "surface/denoised_normals.h"
@@ -25,7 +26,8 @@ void BaseMesh::Coarsen(PatternMaterial material) {
 }
 
 void BaseMesh::MakeSymmetric(PatternMaterial material) {
-  if (!mirror_) return;
+  const auto mirror = FindMirrorPlane(Surface());
+  if (!mirror) return;
   // Paper is to keep the model as it is, and its pieces are too sensitive for mirrored borders only. Of
   // fabric, what is smaller than part of an edge is an accident of the triangles; noise is larger at some
   // vertices.
@@ -39,14 +41,10 @@ void BaseMesh::MakeSymmetric(PatternMaterial material) {
   constexpr double kRounding = 1e-6;
   const bool is_paper = material == PatternMaterial::kPaper;
   if (is_paper) distance = kRounding * size;
-  SymmetricMesh symmetric = MakeSymmetricMesh(*mesh_, Surface(), *mirror_);
-  if (!AreSameShape(*mesh_, symmetric.mesh, distance, is_paper ? kRounding : kArea)) {
-    if (is_paper) mirror_.reset();
-    return;
-  }
+  SymmetricMesh symmetric = MakeSymmetricMesh(*mesh_, Surface(), *mirror);
+  if (!AreSameShape(*mesh_, symmetric.mesh, distance, is_paper ? kRounding : kArea)) return;
   Take(symmetric_, std::move(symmetric.mesh));
-  half_ = symmetric.half;
-  mirror_ = ExactMirrorPlane(half_, Surface());
+  halves_ = symmetric.halves;
 }
 
 void BaseMesh::ToUsersFaces(Pattern& pattern) const {
