@@ -71,9 +71,9 @@ TEST(PatternBaseMesh, AFineMeshIsCoarsenedToTheSameShape) {
   const auto coarse = CoarseMesh(sphere, *surface, PatternMaterial::kPaper);
   ASSERT_TRUE(coarse.has_value());
   EXPECT_LT(coarse->faces.size(), sphere.faces.size() / 2);
-  EXPECT_TRUE(AreSameShape(sphere, *coarse, 0.01, 0.003));
-  EXPECT_FALSE(AreSameShape(sphere, WithPocket(*coarse, 0.1), 0.01, 1));
-  EXPECT_FALSE(AreSameShape(WithPocket(sphere, 0.1), *coarse, 0.01, 1));
+  EXPECT_TRUE(AreSameShape(sphere, *coarse, {0.01, 0.003}));
+  EXPECT_FALSE(AreSameShape(sphere, WithPocket(*coarse, 0.1), {0.01, 1}));
+  EXPECT_FALSE(AreSameShape(WithPocket(sphere, 0.1), *coarse, {0.01, 1}));
 }
 
 TEST(PatternBaseMesh, OthersAreNotCoarsened) {
@@ -112,7 +112,7 @@ TEST(PatternBaseMesh, ASymmetricModelBecomesExactlySo) {
     BaseMesh base(model);
     base.MakeSymmetric(PatternMaterial::kFabric);
     ASSERT_TRUE(base.Halves().IsSymmetric()) << name;
-    EXPECT_TRUE(AreSameShape(model, base.Mesh(), 0.006 * LongestSide(model), 0.001)) << name;
+    EXPECT_TRUE(AreSameShape(model, base.Mesh(), {0.006 * LongestSide(model), 0.001})) << name;
     const auto mirror = FindMirrorPlane(base.Surface());
     ASSERT_TRUE(mirror.has_value()) << name;
     for (int h = 0; h < base.Surface().HalfEdgeCount(); ++h) {

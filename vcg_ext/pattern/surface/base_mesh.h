@@ -6,6 +6,7 @@
 #include "common/surface_data.h"
 #include "pattern/pattern.h"
 #include "pattern/surface/mirrored_halves.h"
+#include "pattern/surface/same_shape.h"
 #include "surface/workspace.h"
 
 namespace dcharts {
@@ -33,6 +34,7 @@ class BaseMesh {
 
  private:
   void Take(SurfaceData& here, SurfaceData mesh);
+  ShapeLimits LimitsForFabric(double size);
 
   const SurfaceData& users_;
   SurfaceData coarse_, symmetric_;
