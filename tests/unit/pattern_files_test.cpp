@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// What is on a drawing, and that the files hold it. The files are read back by other programs in tests/host.
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -14,6 +16,7 @@
 #include "pattern/drawing/svg_writer.h"
 #include "pattern/drawing/text_box.h"
 #include "pattern/drawing/tiles.h"
+#include "pattern/drawing/write_pattern.h"
 #include "pattern_by_hand.h"
 #include "planar/polygon.h"
 
@@ -188,9 +191,27 @@ TEST(PatternFiles, DxfHasABlockForEachPieceAndDeclaresItsLayers) {
   const std::string dxf = DxfFile(DrawingOf(Cushions({40}, 7)));
   for (const char* part :
        {"$ACADVER\n1\nAC1009", "0\nBLOCK\n8\n1\n2\nPIECE_1\n", "0\nINSERT\n8\n1\n2\nPIECE_2\n",
-        "0\nLAYER\n2\n1\n", "0\nLAYER\n2\n4\n", "0\nLAYER\n2\n7\n", "0\nLAYER\n2\n14\n",
+        "0\nLAYER\n2\n1\n", "0\nLAYER\n2\n4\n", "0\nLAYER\n2\n7\n", "0\nLAYER\n2\n14\n", "0\nLAYER\n2\n15\n",
         "Piece Name: Piece 1", "Quantity: 1,0", "0\nEOF\n"})
     EXPECT_NE(dxf.find(part), std::string::npos) << part;
+  // Who cuts along layer 1 cuts no text.
+  EXPECT_NE(dxf.find("0\nTEXT\n8\n15\n"), std::string::npos);
+  EXPECT_EQ(dxf.find("0\nTEXT\n8\n1\n"), std::string::npos);
+}
+
+TEST(PatternFiles, SaysHowManyLabelsFoundNoRoom) {
+  // The sheet is hardly larger than the pieces.
+  const Pattern pattern = Cushions(std::vector<double>(40, 2), 1);
+  Params params;
+  params.output_file = testing::TempDir() + "no_room.svg";
+  const std::vector<std::string> sentences = WritePattern(pattern, {}, params);
+  std::remove(params.output_file.c_str());
+  ASSERT_EQ(sentences.size(), 2u);
+  const int count = std::atoi(sentences[1].c_str());
+  EXPECT_GT(count, 7) << sentences[1];
+  EXPECT_NE(sentences[1].find(" labels found no room: Piece 1: "), std::string::npos);
+  EXPECT_NE(sentences[1].find("; and " + std::to_string(count - 6) + " more."), std::string::npos)
+      << sentences[1];
 }
 
 TEST(PatternFiles, DxfSaysOfALineWhatItBelongsTo) {

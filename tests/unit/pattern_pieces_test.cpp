@@ -268,6 +268,16 @@ TEST(PatternRulings, ACylindersRunAlongItsAxis) {
   EXPECT_TRUE(none.pieces[0].rulings.empty());
 }
 
+TEST(PatternRulings, OfAPrismRunFromEndToEnd) {
+  // Flat sides of 15 mm, each of triangles that lie askew: up to the ends of the piece.
+  const FlatCharts charts = Tube(100, 6, 200);
+  Pattern pattern = FinePattern(charts);
+  AddRulings(charts.charts[0], 15, 10, pattern.pieces[0]);
+  const auto& rulings = pattern.pieces[0].rulings;
+  ASSERT_GE(rulings.size(), 20u);
+  for (const Ruling& ruling : rulings) EXPECT_GT((ruling.to - ruling.from).norm(), 195);
+}
+
 TEST(PatternRulings, AreFartherApartOnALargePiece) {
   const FlatCharts charts = Tube(900, 2, 20000);
   Pattern pattern = FinePattern(charts);

@@ -12,6 +12,7 @@
 #include "pattern/surface/coarse_mesh.h"
 #include "pattern/surface/data_coordinates.h"
 #include "pattern/surface/face_tree.h"
+#include "pattern/surface/mirror_plane.h"
 #include "pattern/surface/same_shape.h"
 #include "shapes.h"
 #include "surface_fixture.h"
@@ -70,9 +71,9 @@ TEST(PatternBaseMesh, AFineMeshIsCoarsenedToTheSameShape) {
   const auto coarse = CoarseMesh(sphere, *surface, PatternMaterial::kPaper);
   ASSERT_TRUE(coarse.has_value());
   EXPECT_LT(coarse->faces.size(), sphere.faces.size() / 2);
-  EXPECT_TRUE(AreSameShape(sphere, *coarse, 0.01, 0.003));
-  EXPECT_FALSE(AreSameShape(sphere, WithPocket(*coarse, 0.1), 0.01, 1));
-  EXPECT_FALSE(AreSameShape(WithPocket(sphere, 0.1), *coarse, 0.01, 1));
+  EXPECT_TRUE(AreSameShape(sphere, *coarse, {0.01, 0.003}));
+  EXPECT_FALSE(AreSameShape(sphere, WithPocket(*coarse, 0.1), {0.01, 1}));
+  EXPECT_FALSE(AreSameShape(WithPocket(sphere, 0.1), *coarse, {0.01, 1}));
 }
 
 TEST(PatternBaseMesh, OthersAreNotCoarsened) {
@@ -109,14 +110,14 @@ TEST(PatternBaseMesh, ASymmetricModelBecomesExactlySo) {
   for (const char* name : {"plush", "cube", "torus"}) {
     const SurfaceData model = shapes::ShapeByName(name).mesh;
     BaseMesh base(model);
-    base.FindMirror();
     base.MakeSymmetric(PatternMaterial::kFabric);
-    ASSERT_GT(base.Half(), 0) << name;
-    EXPECT_TRUE(AreSameShape(model, base.Mesh(), 0.006 * LongestSide(model), 0.001)) << name;
-    const auto& mirror = *base.Mirror();
+    ASSERT_TRUE(base.Halves().IsSymmetric()) << name;
+    EXPECT_TRUE(AreSameShape(model, base.Mesh(), {0.006 * LongestSide(model), 0.001})) << name;
+    const auto mirror = FindMirrorPlane(base.Surface());
+    ASSERT_TRUE(mirror.has_value()) << name;
     for (int h = 0; h < base.Surface().HalfEdgeCount(); ++h) {
-      const int image = mirror.ImageOfEdge(h);
-      EXPECT_LT((mirror.Mirrored(base.Surface().Position(base.Surface().Vertex(h))) -
+      const int image = base.Halves().ImageOfEdge(h);
+      EXPECT_LT((mirror->Mirrored(base.Surface().Position(base.Surface().Vertex(h))) -
                  base.Surface().Position(base.Surface().Vertex(Next(image))))
                     .norm(),
                 1e-9);
@@ -130,11 +131,9 @@ TEST(PatternBaseMesh, PaperIsSymmetricExactlyOrNotAtAll) {
     for (auto& v : model.vertices)
       if (v[0] > 1 && v[1] > 0 && v[2] > 0.1) v[2] += height;
     BaseMesh base(model);
-    base.FindMirror();
-    ASSERT_TRUE(base.Mirror().has_value());
+    ASSERT_TRUE(FindMirrorPlane(base.Surface()).has_value());
     base.MakeSymmetric(PatternMaterial::kPaper);
-    EXPECT_EQ(base.Mirror().has_value(), height == 0);
-    EXPECT_EQ(base.Half() > 0, height == 0);
+    EXPECT_EQ(base.Halves().IsSymmetric(), height == 0);
   }
 }
 
@@ -142,9 +141,8 @@ TEST(PatternBaseMesh, AFeatureOnOneSideIsKept) {
   for (const double height : {0.02, 0.05, 0.1}) {
     const SurfaceData model = WithPocket(shapes::Plush(40), height);
     BaseMesh base(model);
-    base.FindMirror();
     base.MakeSymmetric(PatternMaterial::kFabric);
-    EXPECT_EQ(base.Half(), 0) << height;
+    EXPECT_FALSE(base.Halves().IsSymmetric()) << height;
     EXPECT_EQ(&base.Mesh(), &model);
   }
 }
@@ -152,14 +150,13 @@ TEST(PatternBaseMesh, AFeatureOnOneSideIsKept) {
 TEST(PatternChartImages, FollowersAreCopies) {
   const SurfaceData cube = shapes::Cube(4);
   BaseMesh base(cube);
-  base.FindMirror();
   base.MakeSymmetric(PatternMaterial::kFabric);
-  const int half = base.Half();
+  const int half = base.Halves().half;
   ASSERT_GT(half, 4);
   // Both halves, then the first one is parted and gets a seam and a map.
   ChartIds ids(2 * half, 0);
   for (int f = half; f < 2 * half; ++f) ids[f] = 1;
-  ChartImages images(half);
+  ChartImages images(base.Halves());
   images.Pair(ids);
   EXPECT_EQ(images.ImageChart(ids, 0), 1);
   EXPECT_TRUE(images.Follows(half) && images.IsFollowed(0) && !images.Follows(0));

@@ -8,9 +8,12 @@
 
 #include "dcharts.h"
 #include "pattern/pattern.h"
+#include "pattern/surface/base_mesh.h"
+#include "pattern/surface/data_coordinates.h"
+#include "pattern/surface/join_at_plane.h"
+#include "pattern/surface/mirror_plane.h"
 #include "pattern/surface/smooth_seams.h"
 #include "pattern/surface/symmetric_mesh.h"
-#include "pattern/surface/symmetry.h"
 #include "shapes.h"
 #include "surface_fixture.h"
 
@@ -65,50 +68,115 @@ TEST(PatternSymmetry, ASymmetricMeshIsItsOwnImage) {
   const auto mirror = FindMirrorPlane(*surface);
   ASSERT_TRUE(mirror.has_value());
   const SymmetricMesh symmetric = MakeSymmetricMesh(data, *surface, *mirror);
-  ASSERT_EQ(symmetric.mesh.faces.size(), 2u * symmetric.half);
+  ASSERT_EQ(symmetric.mesh.faces.size(), 2u * symmetric.halves.half);
   const TestSurface again(symmetric.mesh);
-  const MirrorPlane exact = ExactMirrorPlane(symmetric.half, *again);
+  const auto exact = FindMirrorPlane(*again);
+  ASSERT_TRUE(exact.has_value());
   int borders = 0;
   for (int f = 0; f < again->FaceCount(); ++f) {
-    EXPECT_LT((exact.Mirrored(again->Centroid(f)) - again->Centroid(exact.image[f])).norm(), 1e-9);
-    EXPECT_NEAR(again->Area(f), again->Area(exact.image[f]), 1e-12);
+    const int image = symmetric.halves.ImageOf(f);
+    EXPECT_LT((exact->Mirrored(again->Centroid(f)) - again->Centroid(image)).norm(), 1e-9);
+    EXPECT_NEAR(again->Area(f), again->Area(image), 1e-12);
     for (int h = 3 * f; h < 3 * f + 3; ++h) borders += again->Opposite(h) < 0;
   }
   EXPECT_EQ(borders, 0);  // closed, as the bear is
 }
 
-TEST(PatternSymmetry, PiecesComeInPairsAndTheCountOnTheSheetIsRight) {
-  for (const bool noisy : {false, true}) {
-    const SurfaceData bear = noisy ? Noisy(shapes::Plush(32)) : shapes::Plush(32);
+// The two halves of a symmetric model, a chart each, joined along the plane.
+struct JoinedHalves {
+  explicit JoinedHalves(const SurfaceData& model) : base(model) {
+    base.MakeSymmetric(PatternMaterial::kFabric);
+    const MirroredHalves& halves = base.Halves();
+    for (int f = 0; f < base.Surface().FaceCount(); ++f) ids.push_back(halves.IsInFirst(f) ? 0 : 1);
+    seams = ChartBorders(base.Surface(), ids);
     Params params;
-    params.size = 300;
-    params.merge_congruent = true;
+    params.method = FlattenMethod::kConformal;
     Progress progress;
-    const Pattern pattern = MakePattern(bear, params, progress).pattern;
-    int mirrored = 0, counted = 0;
-    for (const Piece& piece : pattern.pieces) {
-      mirrored += piece.mirrored;
-      if (piece.drawn) counted += piece.copies + piece.mirror_copies;
-      EXPECT_EQ(piece.drawn, piece.group == piece.id);
-    }
-    EXPECT_GE(mirrored, 3);
-    // All that isn't on both sides of the bear has a partner.
-    for (const Piece& piece : pattern.pieces) {
-      double low = 0, high = 0;
-      for (const OutlinePoint& point : piece.loops[0]) {
-        low = std::min(low, point.on_model.x());
-        high = std::max(high, point.on_model.x());
-      }
-      int of_group = 0;
-      for (const Piece& other : pattern.pieces) of_group += other.group == piece.group;
-      constexpr double kClear = 0.5;  // mm
-      EXPECT_TRUE(of_group >= 2 || (low < -kClear && high > kClear)) << piece.name << (noisy ? " noisy" : "");
-    }
-    EXPECT_EQ(counted, static_cast<int>(pattern.pieces.size()));
-    EXPECT_LT(pattern.largest_ease, 0.01);
-    for (int piece : pattern.piece_of_face) EXPECT_GE(piece, 0);
+    JoinAtPlane(base.Surface(), halves, params, progress, ids, seams);
   }
+
+  // As a share of the model's longest side; -1 where it isn't symmetric.
+  double SeamLength() const {
+    double length = 0;
+    for (int h = 0; h < base.Surface().HalfEdgeCount(); ++h) {
+      if (!IsSeam(seams, h)) continue;
+      if (!IsSeam(seams, base.Halves().ImageOfEdge(h))) return -1;
+      length += base.Surface().Length(h) / 2 * DataCoordinates(base.Mesh(), base.Surface()).Scale();
+    }
+    return length / LongestSide(base.Mesh());
+  }
+
+  BaseMesh base;
+  ChartIds ids;
+  SeamMask seams;
+};
+
+TEST(PatternSymmetry, ARingThatIsNotFlatStaysOpenAlongThePlane) {
+  const SurfaceData frustum = shapes::OpenFrustum(48);  // 2 wide, its side 1.118 long
+  const JoinedHalves joined(frustum);
+  EXPECT_EQ(ChartCount(joined.ids), 1);
+  EXPECT_NEAR(joined.SeamLength(), 1.118 / 2, 0.01);
 }
+
+TEST(PatternSymmetry, AFlatRingStaysWhole) {
+  const SurfaceData washer = shapes::PlaneWithHole(24);
+  const JoinedHalves joined(washer);
+  EXPECT_EQ(ChartCount(joined.ids), 1);
+  EXPECT_EQ(joined.SeamLength(), 0);
+}
+
+TEST(PatternSymmetry, HalvesThatDoNotLieFlatTogetherStayApart) {
+  const SurfaceData ball = shapes::Sphere(8);
+  const JoinedHalves joined(ball);
+  EXPECT_EQ(ChartCount(joined.ids), 2);
+}
+
+// Whether the plane x = 0 mirrors the piece's outline on the model onto itself.
+bool IsItsOwnImage(const Piece& piece) {
+  constexpr double kClose = 3;  // mm
+  for (const OutlineLoop& loop : piece.loops)
+    for (const OutlinePoint& point : loop) {
+      const Point3 image(-point.on_model.x(), point.on_model.y(), point.on_model.z());
+      double nearest = kClose;
+      for (const OutlineLoop& other : piece.loops)
+        for (size_t k = 0; k < other.size(); ++k) {
+          const Point3 p = other[k].on_model, along = other[(k + 1) % other.size()].on_model - p;
+          const double t = std::clamp((image - p).dot(along) / along.squaredNorm(), 0.0, 1.0);
+          nearest = std::min(nearest, (p + t * along - image).norm());
+        }
+      if (nearest >= kClose) return false;
+    }
+  return true;
+}
+
+class PatternSymmetryOfSize : public testing::TestWithParam<std::pair<double, bool>> {};
+
+TEST_P(PatternSymmetryOfSize, EveryPieceHasAPartnerOrIsItsOwnImage) {
+  const auto [size, noisy] = GetParam();
+  const SurfaceData bear = noisy ? Noisy(shapes::Plush(32)) : shapes::Plush(32);
+  Params params;
+  params.size = size;
+  params.merge_congruent = true;
+  Progress progress;
+  const Pattern pattern = MakePattern(bear, params, progress).pattern;
+  int mirrored = 0, counted = 0;
+  for (const Piece& piece : pattern.pieces) {
+    mirrored += piece.mirrored;
+    if (piece.drawn) counted += piece.copies + piece.mirror_copies;
+    EXPECT_EQ(piece.drawn, piece.group == piece.id);
+    int of_group = 0;
+    for (const Piece& other : pattern.pieces) of_group += other.group == piece.group;
+    EXPECT_TRUE(of_group >= 2 || IsItsOwnImage(piece)) << piece.name << " of " << piece.area << " mm^2";
+  }
+  EXPECT_GE(mirrored, 1);
+  EXPECT_EQ(counted, static_cast<int>(pattern.pieces.size()));
+  EXPECT_LT(pattern.largest_ease, 0.01);
+  for (int piece : pattern.piece_of_face) EXPECT_GE(piece, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, PatternSymmetryOfSize,
+                         testing::Values(std::pair(300.0, false), std::pair(300.0, true),
+                                         std::pair(200.0, true)));
 
 TEST(PatternSymmetry, ATextureKeepsTheModelAsItIs) {
   Params params;

@@ -8,6 +8,7 @@
 
 #include "common/pi.h"
 #include "pattern/folds.h"
+#include "pattern/half_edges.h"
 #include "pattern/outline.h"
 #include "pattern/segments.h"
 #include "planar/polygon.h"
@@ -15,7 +16,7 @@
 namespace dcharts {
 namespace {
 
-/// The normals of a chart over its flat map, and where in the map a triangle is.
+/// The normals and the bends of a chart over its flat map, and where in the map a triangle is.
 class NormalField {
  public:
   NormalField(const FlatChart& chart, double crease_degrees) : chart_(chart) {
@@ -26,7 +27,6 @@ class NormalField {
     columns_ = static_cast<int>(size.x() / cell_) + 1;
     rows_ = static_cast<int>(size.y() / cell_) + 1;
     cells_.resize(static_cast<size_t>(columns_) * rows_);
-    Eigen::MatrixXd at_vertex = Eigen::MatrixXd::Zero(chart.uv.rows(), 3);
     for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
       Eigen::Vector3d p[3];
       Point2 a = chart.uv.row(triangles(t, 0)).transpose(), b = a;
@@ -37,27 +37,14 @@ class NormalField {
       }
       const Eigen::Vector3d n = (p[1] - p[0]).cross(p[2] - p[0]);
       normal_.push_back(n.norm() > 0 ? Eigen::Vector3d(n.normalized()) : Eigen::Vector3d::Zero());
-      for (int k = 0; k < 3; ++k) at_vertex.row(triangles(t, k)) += n.transpose();
       for (int y = Row(a.y()); y <= Row(b.y()); ++y)
         for (int x = Column(a.x()); x <= Column(b.x()); ++x)
           cells_[static_cast<size_t>(y) * columns_ + x].push_back(static_cast<int>(t));
     }
-    at_vertex.rowwise().normalize();
-    // How normals change over each triangle; across a crease that says nothing.
-    const double crease = std::cos(crease_degrees * kPi / 180);
-    for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-      Eigen::Matrix<double, 3, 2> change = Eigen::Matrix<double, 3, 2>::Zero();
-      bool smooth = true;
-      const Point2 uv[3] = {chart.uv.row(triangles(t, 0)), chart.uv.row(triangles(t, 1)),
-                            chart.uv.row(triangles(t, 2))};
-      const double twice = Orient(uv[0], uv[1], uv[2]);
-      for (int k = 0; k < 3 && twice > 0; ++k) {
-        const Point2 e = uv[(k + 2) % 3] - uv[(k + 1) % 3];
-        change += at_vertex.row(triangles(t, k)).transpose() * Point2(-e.y(), e.x()).transpose() / twice;
-        smooth = smooth && at_vertex.row(triangles(t, k)).dot(normal_[t]) > crease;
-      }
-      form_.push_back(smooth ? Eigen::Matrix2d(change.transpose() * change) : Eigen::Matrix2d::Zero());
-    }
+    bend_.assign(triangles.rows(), Eigen::Matrix2d::Zero());
+    const std::vector<int> opposite = OppositeHalfEdges(chart);
+    for (int h = 0; h < static_cast<int>(opposite.size()); ++h)
+      if (opposite[h] > h) AddBend(h, opposite[h], crease_degrees);
   }
 
   int TriangleAt(const Point2& p) const {
@@ -76,9 +63,8 @@ class NormalField {
 
   const Eigen::Vector3d& Normal(int triangle) const { return normal_[triangle]; }
 
-  /// Sum of the squared change of the normal over the triangles near a point: its eigenvector of the smaller
-  /// eigenvalue is the direction of the ruling.
-  Eigen::Matrix2d FormNear(const Point2& p, double reach) const {
+  /// How the surface bends near a point, 1 / mm: a ruling is an eigenvector of the eigenvalue nearer to 0.
+  Eigen::Matrix2d BendNear(const Point2& p, double reach) const {
     Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
     double area = 0;
     for (int y = Row(p.y() - reach); y <= Row(p.y() + reach); ++y)
@@ -88,14 +74,30 @@ class NormalField {
                        b = chart_.uv.row(chart_.mesh.triangles(t, 1)),
                        c = chart_.uv.row(chart_.mesh.triangles(t, 2));
           if (((a + b + c) / 3 - p).norm() > reach) continue;
-          const double weight = std::max(0.0, Orient(a, b, c));
-          sum += weight * form_[t];
-          area += weight;
+          sum += bend_[t];
+          area += std::max(0.0, Orient(a, b, c)) / 2;
         }
     return area > 0 ? Eigen::Matrix2d(sum / area) : sum;
   }
 
  private:
+  // A triangulated surface bends at its edges, across them (Cohen-Steiner, Morvan 2003); so the flat sides of
+  // a prism do not bend however they are triangulated. A crease says nothing of what is beside it.
+  void AddBend(int h, int opposite, double crease_degrees) {
+    const Eigen::Vector3d &m = normal_[h / 3], &n = normal_[opposite / 3];
+    if (m.isZero() || n.isZero()) return;
+    const Eigen::Vector3d edge =
+        (chart_.mesh.positions.row(EndOf(chart_, h)) - chart_.mesh.positions.row(StartOf(chart_, h)))
+            .transpose();
+    const double angle = std::atan2(m.cross(n).dot(edge.normalized()), m.dot(n));
+    if (std::abs(angle) >= crease_degrees * kPi / 180) return;
+    const Point2 along = (chart_.uv.row(EndOf(chart_, h)) - chart_.uv.row(StartOf(chart_, h))).transpose();
+    if (!(along.norm() > 0)) return;
+    const Point2 across = Point2(-along.y(), along.x()).normalized();
+    const Eigen::Matrix2d bend = angle * along.norm() * across * across.transpose();
+    for (int t : {h / 3, opposite / 3}) bend_[t] += bend / 2;
+  }
+
   int Column(double x) const { return std::clamp(static_cast<int>((x - low_.x()) / cell_), 0, columns_ - 1); }
   int Row(double y) const { return std::clamp(static_cast<int>((y - low_.y()) / cell_), 0, rows_ - 1); }
 
@@ -105,7 +107,7 @@ class NormalField {
   int columns_ = 1, rows_ = 1;
   std::vector<std::vector<int>> cells_;
   std::vector<Eigen::Vector3d> normal_;
-  std::vector<Eigen::Matrix2d> form_;
+  std::vector<Eigen::Matrix2d> bend_;  // of each triangle, times its area
 };
 
 // How far from p along d the normal stays within `most` (cosine) of the one at p.
@@ -143,11 +145,12 @@ void AddRulings(const FlatChart& chart, double least_degrees, double least_spaci
     for (double x = low.x() + spacing / 2; x < high.x(); x += spacing / 2) {
       const Point2 p(x, y);
       if (!IsInside(outline, p) || is_near(p) || field.TriangleAt(p) < 0) continue;
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> bend(field.FormNear(p, spacing / 2));
-      const double across = std::sqrt(std::max(0.0, bend.eigenvalues()[1])),
-                   along = std::sqrt(std::max(0.0, bend.eigenvalues()[0]));
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> bend(field.BendNear(p, spacing / 2));
+      const int ruling = std::abs(bend.eigenvalues()[0]) < std::abs(bend.eigenvalues()[1]) ? 0 : 1;
+      const double across = std::abs(bend.eigenvalues()[1 - ruling]),
+                   along = std::abs(bend.eigenvalues()[ruling]);
       if (across < kLeastBend || along > kOneWay * across) continue;
-      const Point2 d = bend.eigenvectors().col(0);
+      const Point2 d = bend.eigenvectors().col(ruling);
       const Point2 from = p - ReachAlong(field, p, -d, step, most) * d,
                    to = p + ReachAlong(field, p, d, step, most) * d;
       for (const auto& [a, b] : ClipToRegion(from, to, outline))

@@ -43,7 +43,7 @@ struct Text {
   Point2 at{0, 0};     ///< the middle of its box, see text_box.h
   double size = 3;     ///< font size, mm
   double angle = 0;    ///< radians, counterclockwise
-  std::string astm{};  ///< what a DXF by ASTM D6673 has in its place, as system text; empty: the text itself
+  std::string astm{};  ///< what a DXF by ASTM D6673 has in its place; empty: the text itself
 };
 
 /// A picture, row by row from its upper left corner.

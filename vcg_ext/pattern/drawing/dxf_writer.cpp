@@ -163,7 +163,7 @@ class DxfBuilder {
 
   // Between two points, so that every font takes the room that was kept for it.
   std::string Entity(const Text& text) {
-    const std::string layer = Layer(text.astm.empty() ? kAstmText : 1);
+    const std::string layer = Layer(kAstmText);
     const Point2 start = BaselineStart(text);
     const Box box = BoxOf(text);
     const Point2 end = start + 2 * box.half.x() * box.AxisX();

@@ -7,6 +7,7 @@
 
 #include "common/pi.h"
 #include "pattern/drawing/number_text.h"
+#include "pattern/segments.h"
 #include "planar/polygon.h"
 
 namespace dcharts {
@@ -264,8 +265,11 @@ class Labeller {
 
   void AddFold(const Fold& fold) {
     const Polyline line = placed_.Placed(fold.line);
-    Label label{{{NumberText(fold.angle_degrees, 0) + "\xC2\xB0", {}, 1}}, 2.2};
+    const std::string text = NumberText(fold.angle_degrees, 0) + "\xC2\xB0";
     const double length = LengthOf(line);
+    if (IsAsOneNear(fold, text, AtLength(line, length / 2).first)) return;
+    labelled_folds_.push_back({fold.mountain, text, line});
+    Label label{{{text, {}, 1}}, 2.2};
     for (double scale : Scales(label, 0.85)) {
       const double height = label.BoxAt({0, 0}, scale).half.y();
       for (double away : {0.8, 2.0})
@@ -279,6 +283,23 @@ class Labeller {
     PutWithLeader(label, {AtLength(line, length / 2).first, AtLength(line, length / 3).first});
   }
 
+  // A round part has many folds of one angle side by side: a number here and there says it.
+  bool IsAsOneNear(const Fold& fold, const std::string& text, const Point2& middle) const {
+    constexpr double kNear = 15;  // mm
+    return std::any_of(labelled_folds_.begin(), labelled_folds_.end(), [&](const LabelledFold& other) {
+      if (other.mountain != fold.mountain || other.text != text) return false;
+      for (std::size_t k = 0; k + 1 < other.line.size(); ++k)
+        if (DistanceToSegment(middle, other.line[k], other.line[k + 1]) < kNear) return true;
+      return false;
+    });
+  }
+
+  struct LabelledFold {
+    bool mountain = true;
+    std::string text;
+    Polyline line;
+  };
+
   const Pattern& pattern_;
   const Piece& piece_;
   const PlacedPiece& placed_;
@@ -286,7 +307,8 @@ class Labeller {
   LabelSpace& space_;
   Group& group_;
   Point2 home_;
-  std::vector<std::string> unplaced_;
+  std::vector<LabelledFold> labelled_folds_{};
+  std::vector<std::string> unplaced_{};
 };
 
 }  // namespace

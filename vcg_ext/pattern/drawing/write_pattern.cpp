@@ -63,6 +63,17 @@ Drawing SheetWithTable(Draft& draft) {
   return sheet;
 }
 
+// All of them, if they are few.
+std::string NoRoomFor(const std::vector<std::string>& labels) {
+  constexpr std::size_t kNamed = 6;
+  const std::size_t named = labels.size() <= kNamed + 1 ? labels.size() : kNamed;
+  std::string text =
+      std::to_string(labels.size()) + (labels.size() == 1 ? " label" : " labels") + " found no room: ";
+  for (std::size_t i = 0; i < named; ++i) text += (i > 0 ? "; " : "") + labels[i];
+  if (named < labels.size()) text += "; and " + std::to_string(labels.size() - named) + " more";
+  return text + ".";
+}
+
 }  // namespace
 
 void CheckOutputFile(const std::string& path) {
@@ -84,11 +95,7 @@ std::vector<std::string> WritePattern(const Pattern& pattern, const SurfaceData&
   else
     SaveFile(path, DxfFile(SheetWithTable(draft)));
   std::vector<std::string> sentences = {"Wrote " + path + "."};
-  if (!draft.unplaced.empty()) {
-    std::string text = "These labels found no room: ";
-    for (std::size_t i = 0; i < draft.unplaced.size(); ++i) text += (i > 0 ? "; " : "") + draft.unplaced[i];
-    sentences.push_back(text + ".");
-  }
+  if (!draft.unplaced.empty()) sentences.push_back(NoRoomFor(draft.unplaced));
   return sentences;
 }
 

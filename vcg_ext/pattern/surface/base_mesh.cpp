@@ -7,6 +7,7 @@
 
 #include "pattern/surface/coarse_mesh.h"
 #include "pattern/surface/data_coordinates.h"
+#include "pattern/surface/mirror_plane.h"
 #include "pattern/surface/same_shape.h"
 #include "pattern/surface/symmetric_mesh.h"
 #include "surface/denoised_normals.h"
@@ -24,29 +25,37 @@ void BaseMesh::Coarsen(PatternMaterial material) {
   if (coarse) Take(coarse_, std::move(*coarse));
 }
 
-void BaseMesh::MakeSymmetric(PatternMaterial material) {
-  if (!mirror_) return;
-  // Paper is to keep the model as it is, and its pieces are too sensitive for mirrored borders only. Of
-  // fabric, what is smaller than part of an edge is an accident of the triangles; noise is larger at some
-  // vertices.
-  constexpr double kOfSize = 2e-3, kOfEdge = 0.25, kMostOfSize = 6e-3, kOfNoise = 5, kArea = 1e-3;
+// Of fabric, what is smaller than part of an edge is an accident of the triangles, at few vertices up to half
+// of one: a narrow groove goes from edge to edge. Noise is larger at some vertices than it is on average.
+ShapeLimits BaseMesh::LimitsForFabric(double size) {
+  constexpr double kOfSize = 2e-3, kOfEdge = 0.25, kMostOfSize = 6e-3, kArea = 1e-3;
+  constexpr double kRare = 2e-3, kFarther = 2;  // times as far
+  constexpr double kOfNoise = 5, kAreaOfNoise = 0.1;
   double edge = 0;
   for (int h = 0; h < Surface().HalfEdgeCount(); ++h) edge += Surface().Length(h) / Surface().HalfEdgeCount();
   edge *= DataCoordinates(*mesh_, Surface()).Scale();
+  const double noise = VertexNoise(Surface());
+  ShapeLimits limits;
+  limits.distance =
+      std::max(kOfSize * size, std::min(kOfEdge * edge, kMostOfSize * size)) + kOfNoise * noise * edge;
+  limits.area = kArea + kAreaOfNoise * noise;
+  limits.rare = kRare;
+  limits.farthest = kFarther * limits.distance;
+  return limits;
+}
+
+// Paper is to keep the model as it is, and its pieces are too sensitive for mirrored borders only.
+void BaseMesh::MakeSymmetric(PatternMaterial material) {
+  const auto mirror = FindMirrorPlane(Surface());
+  if (!mirror) return;
+  SymmetricMesh symmetric = MakeSymmetricMesh(*mesh_, Surface(), *mirror);
   const double size = LongestSide(*mesh_);
-  double distance = std::max(kOfSize * size, std::min(kOfEdge * edge, kMostOfSize * size)) +
-                    kOfNoise * VertexNoise(Surface()) * edge;
   constexpr double kRounding = 1e-6;
-  const bool is_paper = material == PatternMaterial::kPaper;
-  if (is_paper) distance = kRounding * size;
-  SymmetricMesh symmetric = MakeSymmetricMesh(*mesh_, Surface(), *mirror_);
-  if (!AreSameShape(*mesh_, symmetric.mesh, distance, is_paper ? kRounding : kArea)) {
-    if (is_paper) mirror_.reset();
-    return;
-  }
+  const ShapeLimits limits =
+      material == PatternMaterial::kPaper ? ShapeLimits{kRounding * size, kRounding} : LimitsForFabric(size);
+  if (!AreSameShape(*mesh_, symmetric.mesh, limits)) return;
   Take(symmetric_, std::move(symmetric.mesh));
-  half_ = symmetric.half;
-  mirror_ = ExactMirrorPlane(half_, Surface());
+  halves_ = symmetric.halves;
 }
 
 void BaseMesh::ToUsersFaces(Pattern& pattern) const {

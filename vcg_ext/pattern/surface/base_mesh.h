@@ -5,7 +5,8 @@
 
 #include "common/surface_data.h"
 #include "pattern/pattern.h"
-#include "pattern/surface/symmetry.h"
+#include "pattern/surface/mirrored_halves.h"
+#include "pattern/surface/same_shape.h"
 #include "surface/workspace.h"
 
 namespace dcharts {
@@ -20,14 +21,10 @@ class BaseMesh {
   const SurfaceData& Mesh() const { return *mesh_; }
   Workspace& Work() { return *work_; }
   const SurfaceGraph<SurfaceMesh>& Surface() const { return work_->Surface(); }
-  /// The plane of symmetry, once it was looked for.
-  const std::optional<MirrorPlane>& Mirror() const { return mirror_; }
-
-  /// Of the mesh when it is exactly symmetric (see SymmetricMesh), else 0.
-  int Half() const { return half_; }
+  /// Of the mesh when it is exactly symmetric, see MakeSymmetric.
+  const MirroredHalves& Halves() const { return halves_; }
 
   void Coarsen(PatternMaterial material);  ///< see CoarseMesh
-  void FindMirror() { mirror_ = FindMirrorPlane(Surface()); }
   /// Where there is a plane of symmetry, and it changes nothing that matters for the material, one half
   /// becomes the exact mirror image of the other. Paper is symmetric exactly or not at all.
   void MakeSymmetric(PatternMaterial material);
@@ -37,13 +34,13 @@ class BaseMesh {
 
  private:
   void Take(SurfaceData& here, SurfaceData mesh);
+  ShapeLimits LimitsForFabric(double size);
 
   const SurfaceData& users_;
   SurfaceData coarse_, symmetric_;
   const SurfaceData* mesh_;
   std::optional<Workspace> work_;
-  int half_ = 0;
-  std::optional<MirrorPlane> mirror_;
+  MirroredHalves halves_;
 };
 
 }  // namespace dcharts

@@ -9,6 +9,7 @@
 #include "common/params.h"
 #include "common/progress.h"
 #include "common/surface_data.h"
+#include "pattern/equal_seams.h"
 #include "pattern/flat_charts.h"
 #include "pattern/surface/chart_images.h"
 #include "surface/chart_patch.h"
@@ -24,11 +25,11 @@ constexpr double kImagesStretch = 1.5;
 /// Lays charts flat for a pattern (Section 4): overlaps are cut off, darts that are not needed are shortened.
 class ChartsForPattern {
  public:
-  /// `to_mm`: millimetres of the finished object per unit of the surface; `half`: of a symmetric mesh, or 0.
-  /// All must outlive this.
-  ChartsForPattern(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, double to_mm, int half,
-                   Progress& progress)
-      : surface_(surface), params_(params), to_mm_(to_mm), progress_(progress), images_(half) {}
+  /// `to_mm`: millimetres of the finished object per unit of the surface; All
+  /// must outlive this.
+  ChartsForPattern(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, double to_mm,
+                   const MirroredHalves& halves, Progress& progress)
+      : surface_(surface), params_(params), to_mm_(to_mm), progress_(progress), images_(halves) {}
 
   /// `ids` and `seams` change where a chart had to be cut or split, and where a dart is shortened.
   void Flatten(ChartIds& ids, SeamMask& seams, const KnownFlattenings& known);
@@ -52,7 +53,14 @@ class ChartsForPattern {
                   const std::vector<int>& source_face) const;
 
  private:
-  struct Finished;
+  struct Finished {
+    ChartPatch patch{};
+    FlatChart chart{};
+    std::vector<int> boundary{};
+    EqualSeams seams{};
+  };
+
+  void LayFlat(ChartIds& ids, SeamMask& seams, const KnownFlattenings& known);
   FlatChart ChartOf(const ChartPatch& patch) const;
   void Finish(Finished& chart, const std::function<void()>& poll) const;
   std::optional<std::pair<int, int>> MeetsItself(const Finished& chart) const;
@@ -60,6 +68,8 @@ class ChartsForPattern {
   double UselessArea() const;  // a smaller piece can't be sewn or folded
   bool TryJoin(int small, int other, ChartIds& ids, SeamMask& seams);
   int JoinWithImages(int small, int other, ChartIds& ids, SeamMask& seams);
+  // Of a chart that is its own image, takes away the half-edges whose images aren't among them.
+  void KeepImages(int face, std::vector<int>& edges) const;
   bool SewUpCrossingDarts(const Finished& chart, SeamMask& seams);
   Points2 StoredUv(const ChartPatch& patch) const;
   void Store(const ChartPatch& patch, const Points2& uv);

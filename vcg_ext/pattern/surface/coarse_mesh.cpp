@@ -44,7 +44,7 @@ std::optional<SurfaceData> CoarseMesh(const SurfaceData& data, const SurfaceGrap
       for (int k = 0; k < 3; ++k)
         mesh.faces.back()[k] = static_cast<int>(vcg::tri::Index(*coarse.mesh, face.cV(k)));
     }
-    if (AreSameShape(data, mesh, distance, gives * kArea)) return mesh;
+    if (AreSameShape(data, mesh, {distance, gives * kArea})) return mesh;
   }
   return std::nullopt;
 }

@@ -12,12 +12,10 @@
 #include "pattern/surface/charts_for_pattern.h"
 #include "pattern/surface/data_coordinates.h"
 #include "pattern/surface/smooth_seams.h"
+#include "pattern/surface/symmetric_charts.h"
 #include "pattern/surface/symmetric_mesh.h"
-#include "pattern/surface/symmetry.h"
 #include "pattern/texts.h"
-#include "surface/cut.h"
 #include "surface/make_charts.h"
-#include "surface/straighten.h"
 #include "surface/workspace.h"
 
 namespace dcharts {
@@ -41,44 +39,6 @@ Params ForMaterial(const Params& params) {
   return material;
 }
 
-// A model that is its own mirror image gets pieces in mirrored pairs.
-void MakeChartsSymmetric(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, double done,
-                         Progress& progress, const MirrorPlane& mirror, ChartIds& ids, SeamMask& seams,
-                         KnownFlattenings& known) {
-  progress.BeginStage("Mirroring charts...", done, done);
-  const bool keep_above = HasShorterSeamsAbove(surface, mirror, ids);
-  const auto mirror_charts = [&](double bound, ChartIds& charts) {
-    return MirrorCharts(surface, mirror, keep_above, bound, progress, charts);
-  };
-  ChartIds mirrored = ids;
-  if (!mirror_charts(params.StretchBound(), mirrored)) return;
-  // Faces and their nearest images make teeth.
-  if (!mirror.exact) StraightenBorders(surface, params, progress, mirrored);
-  // Cut, which may part charts, and mirrored again with all the cuts. Images of charts stretch a little more
-  // than they: they are not to be parted for that.
-  Params looser = params, uncut = params;
-  constexpr double kLooser = 1.3;
-  static_assert(kLooser < kImagesStretch);
-  if (params.max_stretch > 0) looser.max_stretch = 1 + kLooser * (params.StretchBound() - 1);
-  uncut.max_stretch = uncut.max_dart_percent = 0;
-  ChartIds cut = mirrored;
-  SeamMask cut_seams, new_seams;
-  KnownFlattenings flat;
-  ChartCutter<SurfaceMesh>(surface, looser, progress).Run(cut, cut_seams, flat);
-  mirrored = cut;
-  if (!mirror_charts(looser.StretchBound(), mirrored)) return;
-  ChartCutter<SurfaceMesh>(surface, uncut, progress).Run(mirrored, new_seams, flat);
-  MirrorCuts(surface, mirror, keep_above, cut, cut_seams, mirrored, new_seams);
-  DropIneffectiveSeams(surface, new_seams);
-  SplitAndCompact(surface, mirrored, &new_seams);
-  if (TooManyCharts(ChartCount(ids), ChartCount(mirrored))) return;
-  flat = KnownFlattenings();
-  ids = std::move(mirrored);
-  seams = std::move(new_seams);
-  known = std::move(flat);
-  progress.Log("The model is symmetric: its pieces are made in mirrored pairs.");
-}
-
 // All but scale and what has to do with the user's faces.
 PatternResult PatternOfMesh(BaseMesh& base, const Params& params, double scale, Progress& progress) {
   const auto& surface = base.Surface();
@@ -89,12 +49,17 @@ PatternResult PatternOfMesh(BaseMesh& base, const Params& params, double scale, 
   KnownFlattenings known;
   constexpr double kChartsShare = 0.6, kFlatShare = 0.75;
   MakeCharts(surface, params, kChartsShare, progress, ids, seams, known, result.report);
-  if (base.Mirror())
-    MakeChartsSymmetric(surface, params, kChartsShare, progress, *base.Mirror(), ids, seams, known);
+  if (base.Halves().IsSymmetric()) {
+    progress.BeginStage("Mirroring charts...", kChartsShare, kChartsShare);
+    if (MakeChartsSymmetric(surface, base.Halves(), params, progress, ids, seams)) {
+      known = KnownFlattenings();
+      progress.Log("The model is symmetric: its pieces are made in mirrored pairs.");
+    }
+  }
   progress.BeginStage("Flattening charts...", kChartsShare, kFlatShare);
   const auto flatten = [&](const SurfaceData& data, Workspace& ready, const KnownFlattenings& flat) {
     const double to_mm = scale * DataCoordinates(data, ready.Surface()).Scale();
-    ChartsForPattern charts(ready.Surface(), params, to_mm, base.Half(), progress);
+    ChartsForPattern charts(ready.Surface(), params, to_mm, base.Halves(), progress);
     charts.Flatten(ids, seams, flat);
     ready.ReleaseBorders(seams);
     return charts.Take(ids, seams, data, scale, ready.SourceFaces());
@@ -102,7 +67,7 @@ PatternResult PatternOfMesh(BaseMesh& base, const Params& params, double scale, 
   FlatCharts charts;
   if (params.material == PatternMaterial::kFabric) {
     SurfaceData smooth = WithSmoothSeams(base.Mesh(), surface, seams);
-    if (base.Half() > 0) MirrorFirstHalf(base.Mesh(), base.Half(), smooth);
+    if (base.Halves().IsSymmetric()) MirrorFirstHalf(base.Mesh(), base.Halves(), smooth);
     Workspace ready(smooth);
     ready.KeepBordersOf(base.Work());
     charts = flatten(smooth, ready, KnownFlattenings());
@@ -134,8 +99,7 @@ PatternResult MakePattern(const SurfaceData& mesh, const Params& params, Progres
   // asked for might not be met by mirrored ones.
   if (!params.print_texture && !params.KeepsBorders()) {
     base.Coarsen(params.material);
-    if (params.target_charts == 0) base.FindMirror();
-    base.MakeSymmetric(params.material);
+    if (params.target_charts == 0) base.MakeSymmetric(params.material);
   }
   PatternResult result = PatternOfMesh(base, material, scale, progress);
   base.ToUsersFaces(result.pattern);

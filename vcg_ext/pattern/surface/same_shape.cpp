@@ -17,23 +17,28 @@ double TotalArea(const SurfaceData& mesh) {
   return area;
 }
 
-bool IsWithin(const SurfaceData& mesh, const FaceTree& other, double distance) {
+bool IsWithin(const SurfaceData& mesh, const FaceTree& other, const ShapeLimits& limits) {
   std::vector<char> seen(mesh.vertices.size(), 0);
+  int vertices = 0, far = 0;
   for (const auto& face : mesh.faces)
     for (int v : face) {
       if (seen[v]) continue;
       seen[v] = 1;
-      if (other.Find(PositionOf(mesh, v)).distance > distance) return false;
+      ++vertices;
+      const double distance = other.Find(PositionOf(mesh, v)).distance;
+      if (distance <= limits.distance) continue;
+      if (distance > limits.farthest) return false;
+      ++far;
     }
-  return true;
+  return far <= limits.rare * vertices;
 }
 
 }  // namespace
 
-bool AreSameShape(const SurfaceData& a, const SurfaceData& b, double distance, double area_share) {
+bool AreSameShape(const SurfaceData& a, const SurfaceData& b, const ShapeLimits& limits) {
   const double area = TotalArea(a);
-  return std::abs(TotalArea(b) - area) <= area_share * area && IsWithin(a, FaceTree(b), distance) &&
-         IsWithin(b, FaceTree(a), distance);
+  return std::abs(TotalArea(b) - area) <= limits.area * area && IsWithin(a, FaceTree(b), limits) &&
+         IsWithin(b, FaceTree(a), limits);
 }
 
 std::vector<int> FacesAtPlacesOf(const FaceTree& from, const FaceTree& to) {

@@ -8,9 +8,16 @@
 
 namespace dcharts {
 
-/// Whether one mesh may stand for the other: each is nowhere (at its vertices) further than `distance` from
-/// the other, units of the meshes, and their areas differ by no more than the share `area_share`.
-bool AreSameShape(const SurfaceData& a, const SurfaceData& b, double distance, double area_share);
+/// How much two meshes of one shape may differ.
+struct ShapeLimits {
+  double distance = 0;  ///< of vertices to the other mesh, units of the meshes
+  double area = 0;      ///< share of the area
+  double rare = 0;      ///< share of the vertices that may be further away than `distance`...
+  double farthest = 0;  ///< ...but not than this
+};
+
+/// Whether one mesh may stand for the other.
+bool AreSameShape(const SurfaceData& a, const SurfaceData& b, const ShapeLimits& limits);
 
 /// Per face of `from` the face of `to` at its place, which looks the same way.
 std::vector<int> FacesAtPlacesOf(const FaceTree& from, const FaceTree& to);

@@ -58,12 +58,15 @@ class HalfCutter {
 };
 
 // From the face that is furthest from its image.
-template <class Centroid>
-MirrorPlane PlaneBetween(int half, const Centroid& centroid) {
+MirrorPlane PlaneBetween(const SurfaceData& symmetric, const MirroredHalves& halves) {
+  const auto centroid = [&](int f) -> Eigen::Vector3d {
+    const auto& [a, b, c] = symmetric.faces[f];
+    return (PositionOf(symmetric, a) + PositionOf(symmetric, b) + PositionOf(symmetric, c)) / 3;
+  };
   MirrorPlane mirror;
   double farthest = 0;
-  for (int f = 0; f < half; ++f) {
-    const Eigen::Vector3d p = centroid(f), q = centroid(f + half), d = p - q;
+  for (int f = 0; f < halves.half; ++f) {
+    const Eigen::Vector3d p = centroid(f), q = centroid(halves.ImageOf(f)), d = p - q;
     if (d.norm() <= farthest) continue;
     farthest = d.norm();
     mirror.normal = d / farthest;
@@ -111,27 +114,17 @@ SymmetricMesh MakeSymmetricMesh(const SurfaceData& data, const Surface& surface,
         there[v] = cutter.OnPlane(v) ? here[v] : add_vertex(mirror.Mirrored(cutter.Points()[v]));
   for (const auto& [a, b, c] : cutter.Faces()) result.mesh.faces.push_back({here[a], here[b], here[c]});
   for (const auto& [a, b, c] : cutter.Faces()) result.mesh.faces.push_back({there[a], there[c], there[b]});
-  result.half = static_cast<int>(cutter.Faces().size());
+  result.halves.half = static_cast<int>(cutter.Faces().size());
   return result;
 }
 
-MirrorPlane ExactMirrorPlane(int half, const Surface& surface) {
-  MirrorPlane mirror = PlaneBetween(half, [&](int f) { return surface.Centroid(f); });
-  mirror.exact = true;
-  for (int f = 0; f < 2 * half; ++f) mirror.image.push_back(f < half ? f + half : f - half);
-  return mirror;
-}
-
-void MirrorFirstHalf(const SurfaceData& symmetric, int half, SurfaceData& mesh) {
-  const MirrorPlane mirror = PlaneBetween(half, [&](int f) -> Eigen::Vector3d {
-    const auto& [a, b, c] = symmetric.faces[f];
-    return (PositionOf(symmetric, a) + PositionOf(symmetric, b) + PositionOf(symmetric, c)) / 3;
-  });
+void MirrorFirstHalf(const SurfaceData& symmetric, const MirroredHalves& halves, SurfaceData& mesh) {
+  const MirrorPlane mirror = PlaneBetween(symmetric, halves);
   const auto set = [&](int v, const Eigen::Vector3d& p) { mesh.vertices[v] = {p.x(), p.y(), p.z()}; };
-  for (int f = 0; f < half; ++f)
+  for (int f = 0; f < halves.half; ++f)
     for (int k = 0; k < 3; ++k) {
       // The image of face (a, b, c) is (a, c, b).
-      const int v = mesh.faces[f][k], w = mesh.faces[f + half][(3 - k) % 3];
+      const int v = mesh.faces[f][k], w = mesh.faces[halves.ImageOf(f)][(3 - k) % 3];
       const Eigen::Vector3d p = PositionOf(mesh, v);
       set(w, v == w ? Eigen::Vector3d(p - mirror.Height(p) * mirror.normal) : mirror.Mirrored(p));
     }

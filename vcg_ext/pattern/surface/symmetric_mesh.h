@@ -2,7 +2,8 @@
 #pragma once
 
 #include "common/surface_data.h"
-#include "pattern/surface/symmetry.h"
+#include "pattern/surface/mirror_plane.h"
+#include "pattern/surface/mirrored_halves.h"
 #include "surface/surface_mesh.h"
 
 namespace dcharts {
@@ -10,7 +11,7 @@ namespace dcharts {
 /// One half of a mesh and its exact mirror image, joined along the plane.
 struct SymmetricMesh {
   SurfaceData mesh;  ///< vertices and faces only
-  int half = 0;      ///< face f < half has the image f + half
+  MirroredHalves halves;
 };
 
 /// The half of `data` that the plane's normal points to, and its image. Faces that cross the plane are cut
@@ -18,11 +19,8 @@ struct SymmetricMesh {
 SymmetricMesh MakeSymmetricMesh(const SurfaceData& data, const SurfaceGraph<SurfaceMesh>& surface,
                                 const MirrorPlane& mirror);
 
-/// The plane of a symmetric mesh, with exact images. `half`: of it; `surface` was made of it.
-MirrorPlane ExactMirrorPlane(int half, const SurfaceGraph<SurfaceMesh>& surface);
-
 /// `mesh` is the symmetric one, some vertices of which were moved: what they are in its first half is
 /// mirrored to the other. `symmetric`: as it was.
-void MirrorFirstHalf(const SurfaceData& symmetric, int half, SurfaceData& mesh);
+void MirrorFirstHalf(const SurfaceData& symmetric, const MirroredHalves& halves, SurfaceData& mesh);
 
 }  // namespace dcharts

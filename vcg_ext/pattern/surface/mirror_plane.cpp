@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pattern/surface/symmetry.h"
+#include "pattern/surface/mirror_plane.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <utility>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
-
-#include "pattern/surface/patch_darts.h"
-#include "surface/chart_patch.h"
-#include "surface/chart_trial.h"
-#include "surface/patch_paths.h"
 
 namespace dcharts {
 namespace {
@@ -140,39 +134,6 @@ Likeness LikenessOf(const Surface& surface, const FaceFinder& finder, const Mirr
   return {good / all, apart / good};
 }
 
-// Parts of charts that hang together with the rest of theirs no more go to the neighbour with most border.
-void GiveAwayFragments(const Surface& surface, ChartIds& ids) {
-  ChartIds pieces = ids;
-  SplitAndCompact(surface, pieces);
-  std::vector<double> area(ChartCount(pieces), 0);
-  std::map<int, int> largest;  // piece of each old id
-  std::vector<int> id_of(area.size(), 0);
-  for (int f = 0; f < surface.FaceCount(); ++f) {
-    area[pieces[f]] += surface.Area(f);
-    id_of[pieces[f]] = ids[f];
-  }
-  for (int p = 0; p < static_cast<int>(area.size()); ++p) {
-    const auto [it, is_new] = largest.insert({id_of[p], p});
-    if (!is_new && area[p] > area[it->second]) it->second = p;
-  }
-  std::vector<std::map<int, double>> border(area.size());
-  for (int h = 0; h < surface.HalfEdgeCount(); ++h) {
-    const int g = surface.Neighbour(h);
-    if (g >= 0 && pieces[g] != pieces[h / 3]) border[pieces[h / 3]][pieces[g]] += surface.Length(h);
-  }
-  for (int p = 0; p < static_cast<int>(area.size()); ++p) {
-    if (largest[id_of[p]] == p) continue;
-    double longest = 0;
-    for (const auto& [q, length] : border[p])
-      if (length > longest && largest[id_of[q]] == q) {
-        longest = length;
-        id_of[p] = id_of[q];
-      }
-  }
-  for (int f = 0; f < surface.FaceCount(); ++f) ids[f] = id_of[pieces[f]];
-  SplitAndCompact(surface, ids);
-}
-
 }  // namespace
 
 std::optional<MirrorPlane> FindMirrorPlane(const Surface& surface) {
@@ -216,120 +177,7 @@ std::optional<MirrorPlane> FindMirrorPlane(const Surface& surface) {
     best->normal = -best->normal;
     best->offset = -best->offset;
   }
-  for (int f = 0; f < surface.FaceCount(); ++f)
-    best->image.push_back(
-        finder.Find(best->Mirrored(surface.Centroid(f)), MirroredNormal(*best, surface.Normal(f))));
   return best;
-}
-
-bool HasShorterSeamsAbove(const Surface& surface, const MirrorPlane& mirror, const ChartIds& ids) {
-  double seams[2] = {0, 0};
-  for (int h = 0; h < surface.HalfEdgeCount(); ++h) {
-    const int g = surface.Neighbour(h);
-    if (g >= 0 && ids[g] != ids[h / 3])
-      seams[mirror.Height(surface.Centroid(h / 3)) >= 0] += surface.Length(h);
-  }
-  return seams[1] <= seams[0];
-}
-
-bool TooManyCharts(int before, int mirrored) { return mirrored > 2 * before + 1; }
-
-bool MirrorCharts(const Surface& surface, const MirrorPlane& mirror, bool keep_above, double stretch_bound,
-                  Progress& progress, ChartIds& ids) {
-  const int count = ChartCount(ids);
-  const auto is_above = [&](int f) { return mirror.Height(surface.Centroid(f)) >= 0; };
-  ChartIds mirrored = ids;
-  for (int f = 0; f < surface.FaceCount(); ++f) {
-    if (is_above(f) == keep_above) continue;
-    const int g = mirror.image[f];
-    // Where there is no image, what is there stays, as the image's chart.
-    mirrored[f] = count + ids[g >= 0 && is_above(g) == keep_above ? g : f];
-  }
-  GiveAwayFragments(surface, mirrored);
-
-  // Which charts are each other's images, and how long they meet.
-  const int new_count = ChartCount(mirrored);
-  std::vector<std::map<int, double>> images(new_count);
-  for (int f = 0; f < surface.FaceCount(); ++f)
-    if (mirror.image[f] >= 0) images[mirrored[f]][mirrored[mirror.image[f]]] += surface.Area(f);
-  std::map<std::pair<int, int>, double> meet;
-  for (int h = 0; h < surface.HalfEdgeCount(); ++h) {
-    const int g = surface.Neighbour(h);
-    if (g >= 0 && mirrored[h / 3] < mirrored[g]) meet[{mirrored[h / 3], mirrored[g]}] += surface.Length(h);
-  }
-  const auto charts = FacesOfCharts(mirrored);
-  const SeamMask no_seams(surface.FaceCount(), 0);
-  PatchExtractor<SurfaceMesh> extractor(surface, no_seams);
-  for (const auto& [pair, length] : meet) {
-    const auto image = std::max_element(images[pair.first].begin(), images[pair.first].end(),
-                                        [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (image == images[pair.first].end() || image->first != pair.second) continue;
-    progress.Poll();
-    std::vector<int> faces = charts[pair.first];
-    faces.insert(faces.end(), charts[pair.second].begin(), charts[pair.second].end());
-    std::sort(faces.begin(), faces.end());
-    if (!TryChart(extractor.Extract(faces), stretch_bound, [&] { progress.Poll(); }).flat) continue;
-    for (int f : charts[pair.second]) mirrored[f] = pair.first;
-  }
-  SplitAndCompact(surface, mirrored);
-  if (TooManyCharts(count, ChartCount(mirrored))) return false;
-  ids = std::move(mirrored);
-  return true;
-}
-
-void MirrorCuts(const Surface& surface, const MirrorPlane& mirror, bool keep_above, const ChartIds& cut_ids,
-                const SeamMask& cut_seams, const ChartIds& ids, SeamMask& seams) {
-  const auto charts = FacesOfCharts(ids);
-  const SeamMask borders = ChartBorders(surface, ids);
-  PatchExtractor<SurfaceMesh> cut_extractor(surface, cut_seams), extractor(surface, borders);
-  const auto mark = [&](int h) {
-    SetSeam(seams, h);
-    if (surface.Opposite(h) >= 0) SetSeam(seams, surface.Opposite(h));
-  };
-  if (mirror.exact) {
-    for (int h = 0; h < surface.HalfEdgeCount(); ++h) {
-      const int g = surface.Neighbour(h);
-      if (g < 0 || !IsSeam(cut_seams, h) || cut_ids[g] != cut_ids[h / 3]) continue;
-      if ((mirror.Height(surface.Centroid(h / 3)) > 0) != keep_above) continue;
-      mark(h);
-      mark(mirror.ImageOfEdge(h));
-    }
-    return;
-  }
-  for (const auto& faces : FacesOfCharts(cut_ids)) {
-    const ChartPatch patch = cut_extractor.Extract(faces);
-    for (const PatchDart& dart : DartsOf(surface, patch)) {
-      const auto edge_of = [&](size_t k) { return patch.SurfaceHalfEdge(dart.arriving[k]); };
-      const int tip = surface.Vertex(Next(edge_of(0))),
-                base = surface.Vertex(edge_of(dart.arriving.size() - 1));
-      const double height = mirror.Height(surface.Position(tip)), edge = surface.Length(edge_of(0));
-      // One on the plane is its own image.
-      if (std::abs(height) > edge && (height > 0) != keep_above) continue;
-      for (size_t k = 0; k < dart.arriving.size(); ++k) mark(edge_of(k));
-      const int image = mirror.image[edge_of(0) / 3];
-      if (std::abs(height) <= edge || image < 0) continue;
-
-      const ChartPatch other = extractor.Extract(charts[ids[image]]);
-      PatchPaths paths(other);
-      const auto nearest = [&](const Eigen::Vector3d& p, bool on_boundary) {
-        int best = -1;
-        double distance = std::numeric_limits<double>::infinity();
-        for (int v = 0; v < other.VertexCount(); ++v) {
-          const double d = (other.mesh.positions.row(v).transpose() - p).squaredNorm();
-          if (paths.OnBoundary(v) != on_boundary || d >= distance) continue;
-          distance = d;
-          best = v;
-        }
-        return best;
-      };
-      const int from = nearest(mirror.Mirrored(surface.Position(base)), true),
-                to = nearest(mirror.Mirrored(surface.Position(tip)), false);
-      if (from < 0 || to < 0) continue;
-      paths.Run({from}, true);
-      if (paths.Source(to) < 0) continue;
-      for (int h : paths.Path(to)) mark(other.SurfaceHalfEdge(h));
-    }
-  }
 }
 
 }  // namespace dcharts
