@@ -150,5 +150,37 @@ TEST(MinCut, FollowsACheapLineThroughAGrid) {
   }
 }
 
+// A sheet of nodes whose left side pulls one way and whose right side the other, with random edges.
+TEST(BandedMinCut, CutsALargeSheetNearlyAsCheaply) {
+  constexpr int kSize = 200;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> capacity(0.5, 1.5);
+  std::vector<double> pull(kSize * kSize, 0);
+  std::vector<FlowEdge> edges;
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      const int n = y * kSize + x;
+      pull[n] = x < kSize / 3 ? 1 : x > 2 * kSize / 3 ? -1 : 0;
+      if (x + 1 < kSize) edges.push_back({n, n + 1, capacity(random)});
+      if (y + 1 < kSize) edges.push_back({n, n + kSize, capacity(random)});
+    }
+  const auto price = [&](const std::vector<bool>& side) {
+    double sum = CutValue(edges, side);
+    for (size_t n = 0; n < side.size(); ++n)
+      if (pull[n] != 0 && (pull[n] > 0) != side[n]) sum += std::abs(pull[n]);
+    return sum;
+  };
+  const std::vector<bool> exact = MinCut(pull, edges), banded = BandedMinCut(pull, edges);
+  EXPECT_TRUE(banded.front());
+  EXPECT_FALSE(banded.back());
+  EXPECT_LT(price(banded), 1.15 * price(exact));
+  EXPECT_EQ(BandedMinCut(pull, edges), banded);
+}
+
+TEST(BandedMinCut, IsExactOnSmallGraphs) {
+  const std::vector<FlowEdge> edges = {{0, 1, 3}, {1, 2, 1}, {2, 3, 2}};
+  EXPECT_EQ(BandedMinCut({9, 0, 0, -9}, edges), (std::vector<bool>{true, true, false, false}));
+}
+
 }  // namespace
 }  // namespace dcharts
