@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "common/pi.h"
@@ -79,40 +80,28 @@ class Pager {
   bool Place(Piece& piece) {
     const Points2 edges = EdgesOf(piece.cut.front());
     const double upright = rotate_ ? UprightAngle(edges) : 0;
-    bool fits = false;
-    for (size_t page = 0; page <= boards_.size(); ++page) {
+    const std::vector<Turn> turns = TurnsThatFit(edges, upright);
+    for (size_t page = 0; !turns.empty(); ++page) {
       if (page == boards_.size()) boards_.emplace_back(std::max(columns_, rows_) + 1);
       int lowest = std::numeric_limits<int>::max();
-      RowRuns best;
+      const Turn* best = nullptr;
       int best_x = 0, best_y = 0;
-      const int turns = rotate_ ? 16 : 1;
-      for (int t = 0; t < turns; ++t) {
-        const double angle = upright + 2 * kPi * t / turns;
-        Points2 turned = Turned(edges, angle);
-        const Eigen::RowVector2d corner = turned.colwise().minCoeff();
-        turned.rowwise() -= corner;
-        const Eigen::RowVector2d size = turned.colwise().maxCoeff();
-        if (size.x() > columns_ * cell_ || size.y() > rows_ * cell_) continue;  // no need for its cells
-        const RowRuns cells = CoveredCells(turned / cell_, gap_ / 2 / cell_);
-        if (cells.width > columns_ || cells.Height() > rows_) continue;
-        fits = true;
+      for (const Turn& turn : turns) {
+        const RowRuns& cells = turn.cells;
         int x = 0, y = 0;
         if (!boards_[page].FindLowest(cells, columns_, 0, rows_ + 1, &x, &y)) continue;
         if (y + cells.Height() >= lowest) continue;
         lowest = y + cells.Height();
-        best = cells;
+        best = &turn;
         best_x = x;
         best_y = y;
-        // The margin is there twice: the grid begins half a gap outside the printable part.
-        piece.on_page.angle = angle;
-        piece.on_page.offset =
-            Point2(x * cell_, y * cell_) - corner.transpose() + Point2::Constant(kPageMargin);
       }
-      if (lowest == std::numeric_limits<int>::max()) {
-        if (!fits) break;
-        continue;
-      }
-      boards_[page].Take(best, best_x, best_y);
+      if (best == nullptr) continue;
+      // The margin is there twice: the grid begins half a gap outside the printable part.
+      piece.on_page.angle = best->angle;
+      piece.on_page.offset =
+          Point2(best_x * cell_, best_y * cell_) - best->corner.transpose() + Point2::Constant(kPageMargin);
+      boards_[page].Take(best->cells, best_x, best_y);
       piece.on_page.page = static_cast<int>(page);
       pages_ = std::max(pages_, static_cast<int>(page) + 1);
       return true;
@@ -125,6 +114,30 @@ class Pager {
   int PageCount() const { return pages_; }
 
  private:
+  struct Turn {
+    double angle = 0;
+    Eigen::RowVector2d corner;  // of the turned outline's box
+    RowRuns cells;
+  };
+
+  // Those at which a piece goes onto a page. Its cells are the same on all pages.
+  std::vector<Turn> TurnsThatFit(const Points2& edges, double upright) const {
+    std::vector<Turn> fit;
+    const int turns = rotate_ ? 16 : 1;
+    for (int t = 0; t < turns; ++t) {
+      Turn turn;
+      turn.angle = upright + 2 * kPi * t / turns;
+      Points2 turned = Turned(edges, turn.angle);
+      turn.corner = turned.colwise().minCoeff();
+      turned.rowwise() -= turn.corner;
+      const Eigen::RowVector2d size = turned.colwise().maxCoeff();
+      if (size.x() > columns_ * cell_ || size.y() > rows_ * cell_) continue;  // no need for its cells
+      turn.cells = CoveredCells(turned / cell_, gap_ / 2 / cell_);
+      if (turn.cells.width <= columns_ && turn.cells.Height() <= rows_) fit.push_back(std::move(turn));
+    }
+    return fit;
+  }
+
   double gap_;
   bool rotate_;
   double cell_ = 1;
