@@ -172,6 +172,12 @@ class MeshlabGui:
         counts = np.bincount((hue / 5).astype(int), minlength=72)
         return int((counts >= 100).sum())
 
+    def wait_for_colors(self, least, seconds=20):
+        """Waits until so many hues are seen, or not: it may take a while after a filter until the view is drawn anew."""
+        end = time.monotonic() + seconds
+        while self.colors() < least and time.monotonic() < end:
+            time.sleep(0.5)
+
     def has_line(self, pattern):
         return any(re.search(pattern, line) for line in self.lines)
 
