@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the pictures of docs/images anew, from the models of meshes/.
+"""Makes the pictures of docs/images anew, from the models of meshes/; those of MeshLab's window from the screenshots
+that the tests leave.
 
     python scripts/make_pictures.py [FOLDER] [--only NAME ...]
+    python scripts/make_pictures.py [FOLDER] --screenshots out/screenshots
 
 Needs the package with what its pictures need (pip install ".[notebook]"). Takes about a minute. FOLDER is docs/images
 when it is not given; NAME is a picture's name without .png. Prints each file with its size."""
@@ -134,6 +136,15 @@ PICTURES = {
 }
 
 
+# From the test of MeshLab 2020.09's window, tests/host/test_gui_2020.py, which calls them "2020 window NAME".
+WINDOWS = ("segment", "cut", "uv", "pattern")
+WINDOW_SIZE = (800, 562)
+
+
+def window_picture(folder, name):
+    return Image.open(folder / f"2020 window {name}.png").convert("RGB").resize(WINDOW_SIZE, Image.Resampling.LANCZOS)
+
+
 def save(picture, path):
     """With a palette of 256 colours: less than half the size. Shades are dithered, else one would see steps."""
     picture = picture.convert("RGB")
@@ -150,12 +161,16 @@ def main():
     parser.add_argument("folder", nargs="?", type=pathlib.Path, default=ROOT / "docs" / "images", metavar="FOLDER")
     parser.add_argument("--only", nargs="+", choices=PICTURES, default=PICTURES, metavar="NAME",
                         help=", ".join(PICTURES))
+    parser.add_argument("--screenshots", type=pathlib.Path, metavar="FOLDER", help="make only those of the window, from these")
     options = parser.parse_args()
+    pictures = {name: PICTURES[name] for name in options.only}
+    if options.screenshots:
+        pictures = {f"window_{name}": functools.partial(window_picture, options.screenshots, name) for name in WINDOWS}
     try:
         options.folder.mkdir(parents=True, exist_ok=True)
-        for name in options.only:
+        for name, made in pictures.items():
             path = options.folder / f"{name}.png"
-            save(PICTURES[name](), path)
+            save(made(), path)
             print(f"{path}: {path.stat().st_size / 1024:.0f} KB", flush=True)
     except OSError as error:
         print(f"The pictures can't be written: {error}.", file=sys.stderr)

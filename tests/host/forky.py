@@ -48,6 +48,14 @@ def inside(root, *command):
             'LD_LIBRARY_PATH=/usr/lib/x86_64-linux-gnu/meshlab', *map(str, command)]
 
 
+def _remove(root):
+    """Removes what a try left that was stopped. debootstrap mounts file systems there, which must not be emptied."""
+    mounted = [line.split()[1] for line in open('/proc/mounts') if line.split()[1].startswith(f'{root}/')]
+    for folder in sorted(mounted, reverse=True):
+        subprocess.run(['umount', '--lazy', folder], check=True)
+    shutil.rmtree(root, ignore_errors=True)
+
+
 def _install(root):
     shutil.copy('/etc/resolv.conf', root / 'etc' / 'resolv.conf')
     install = 'apt-get -q -o Acquire::Check-Valid-Until=false update && apt-get -q -y install ' \
@@ -81,7 +89,7 @@ def _made_folder():
         raise NotHere('debootstrap is not installed (Debian 12: apt-get install debootstrap)')
     mirror = _mirror()
     new = CACHE / 'forky-meshlab.new'
-    shutil.rmtree(new, ignore_errors=True)
+    _remove(new)
     # bookworm's debootstrap does not know forky; sid's way of doing it fits.
     _run('debootstrap of forky', ['debootstrap', '--variant=minbase', 'forky', str(new), mirror,
                                   '/usr/share/debootstrap/scripts/sid'])

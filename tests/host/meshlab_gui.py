@@ -50,18 +50,22 @@ class MeshlabGui:
 
     def open_filter(self, name):
         """Opens the filter's dialog by MeshLab's search box; returns its window."""
+        self.choose(name)
+        return self.session.wait_for_window(name)
+
+    def choose(self, name):
+        """Chooses what the search box finds first: a filter, or an entry of the menus Edit and Render."""
         self.session.xdotool('windowactivate', '--sync', self.main_window())
         self.session.keys('ctrl+f')
         time.sleep(0.5)
         self.session.write(name)
         time.sleep(1)
         self.session.keys('Down', 'Return')
-        return self.session.wait_for_window(name)
 
-    def apply(self, name, seconds=240, typed=None, saved_as=None, chosen=None):
+    def apply(self, name, seconds=240, typed=None, saved_as=None, chosen=None, ticked=()):
         """Applies a filter, waits until MeshLab says it is done, and takes the filter's dialog off the screen. Parameters
         have their defaults, but for what is typed into fields: {number of the field, from 0: text}, for what is chosen in
-        menus: {number of the field: line, from 0}, and for the name of a file to write, the last of them: (number of the
+        menus: {number of the field: line, from 0}, for boxes that are `ticked` (numbers of the fields), and for the name of a file to write, the last of them: (number of the
         field, text), given in the dialog behind its button (2020.09 does not look at what is typed beside that)."""
         window = self.open_filter(name)
         height = int(re.search(r'Geometry: \d+x(\d+)', self.session.xdotool('getwindowgeometry', window)).group(1))
@@ -70,9 +74,12 @@ class MeshlabGui:
         time.sleep(0.3)
         done = len(self.applied(name))
         place = 0  # on Apply, which has the focus
-        for field, value in sorted({**(typed or {}), **(chosen or {})}.items()):
+        for field, value in sorted({**(typed or {}), **(chosen or {}), **dict.fromkeys(ticked)}.items()):
             self._step(self.first_field + field - place)
             place = self.first_field + field
+            if value is None:
+                self.session.keys('space')
+                continue
             if isinstance(value, int):
                 self.session.keys('Home', *['Down'] * value)
                 continue
@@ -137,6 +144,12 @@ class MeshlabGui:
         self.session.keys('Return')
         time.sleep(1)
 
+    def apply_at_once(self, name, seconds=60):
+        """Applies a filter that has no parameters, and so no dialog."""
+        done = len(self.applied(name))
+        self.choose(name)
+        self.wait_for_output(f'(?s)(Applied filter:? {re.escape(name)} in.*){{{done + 1}}}', seconds)
+
     def _step(self, count):
         if count:
             self.session.keys(*(['Tab'] if count > 0 else ['shift+Tab']) * abs(count))
@@ -158,6 +171,12 @@ class MeshlabGui:
         hue = np.where(m == r, (g - b) / d % 6, np.where(m == g, (b - r) / d + 2, (r - g) / d + 4)) * 60
         counts = np.bincount((hue / 5).astype(int), minlength=72)
         return int((counts >= 100).sum())
+
+    def wait_for_colors(self, least, seconds=20):
+        """Waits until so many hues are seen, or not: it may take a while after a filter until the view is drawn anew."""
+        end = time.monotonic() + seconds
+        while self.colors() < least and time.monotonic() < end:
+            time.sleep(0.5)
 
     def has_line(self, pattern):
         return any(re.search(pattern, line) for line in self.lines)

@@ -47,3 +47,10 @@ def one_filter(folder, name, **changes):
         path.write_text(f'<!DOCTYPE FilterScript>\n<FilterScript><filter name="{name}"/></FilterScript>')
         return path
     return write_script(path, name, example_of(name), **changes)
+
+
+def field_number(name, parameter):
+    """Which field of the filter's dialog is the parameter's, from 0: they have the order of the shipped scripts."""
+    filters = ElementTree.parse(example_of(name)).getroot().iter('filter')
+    (node,) = (node for node in filters if node.get('name') == name)
+    return [p.get('name') for p in node.iter('Param')].index(parameter)

@@ -29,6 +29,15 @@ def test_it_makes_a_picture_of_a_mesh_and_of_a_pattern(tmp_path):
         assert np.asarray(picture.convert('L')).std() > 8 and picture.width == shipped.width
 
 
+def test_it_makes_those_of_the_window_from_screenshots(tmp_path):
+    for name in ('segment', 'cut', 'uv', 'pattern'):
+        Image.effect_noise((1280, 900), 50).convert('RGB').save(tmp_path / f'2020 window {name}.png')
+    done = run(tmp_path / 'pictures', '--screenshots', tmp_path)
+    assert done.returncode == 0, done.stderr
+    for path in IMAGES.glob('window_*.png'):
+        assert Image.open(tmp_path / 'pictures' / path.name).size == Image.open(path).size
+
+
 def test_what_can_not_be_written_is_said(tmp_path):
     (tmp_path / 'file').touch()
     done = run(tmp_path / 'file' / 'pictures', '--only', 'pattern_cylinder_paper')
@@ -36,12 +45,13 @@ def test_what_can_not_be_written_is_said(tmp_path):
 
 
 def test_every_picture_is_there_small_and_shown():
-    names = subprocess.run([sys.executable, '-c', 'import make_pictures; print(*make_pictures.PICTURES)'],
+    say = 'from make_pictures import PICTURES, WINDOWS; print(*PICTURES, *(f"window_{name}" for name in WINDOWS))'
+    names = subprocess.run([sys.executable, '-c', say],
                            cwd=SCRIPT.parent, capture_output=True, text=True, check=True, timeout=60).stdout
     made = {f'{name}.png' for name in names.split()}
     there = {path.name: path.stat().st_size for path in IMAGES.iterdir()}
     assert set(there) == made
-    assert max(there.values()) < 200 * 1024 and sum(there.values()) < 1700 * 1024
+    assert max(there.values()) < 200 * 1024 and sum(there.values()) < 1900 * 1024
     pages = [*(ROOT / 'docs').glob('*.md'), ROOT / 'README.md']
     shown = {name for page in pages for name in re.findall(r'images/([\w.]+)\)', page.read_text(encoding='utf-8'))}
     assert shown == made

@@ -96,6 +96,13 @@ def test_what_does_not_compile_for_windows_is_said(tmp_path):
     assert f'{wrong} does not compile for Windows' in done.stdout and str(right) not in done.stdout
 
 
+def test_the_version_is_the_same_everywhere():
+    patterns = {'CMakeLists.txt': r'VERSION ([\d.]+) LANGUAGES', 'pyproject.toml': r'(?m)^version = "(.*)"',
+                'CITATION.cff': r'(?m)^version: (.*)', 'CHANGELOG.md': r'(?m)^## \[([\d.]+)\]'}
+    assert len({re.search(pattern, (ROOT / file).read_text(encoding='utf-8')).group(1)
+                for file, pattern in patterns.items()}) == 1
+
+
 @pytest.fixture
 def installed(tmp_path):
     """A function: the files that `cmake --install` puts below a folder, relative to it."""
