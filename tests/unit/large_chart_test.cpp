@@ -2,6 +2,7 @@
 // Charts of more than 30,000 triangles: their maps are continued from coarser charts.
 #include <random>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "flatten_charts.h"
@@ -48,7 +49,9 @@ TEST(CoarseChart, KeepsVerticesWhereTheyAreAndLeadsBackToThem) {
     EXPECT_EQ(coarse.Mesh().positions.row(v), chart.positions.row(coarse.SourceVertices()[v]));
   for (size_t h = 0; h < coarse.Opposite().size(); ++h) {
     const int o = coarse.Opposite()[h];
-    if (o >= 0) EXPECT_EQ(coarse.Opposite()[static_cast<size_t>(o)], static_cast<int>(h));
+    if (o >= 0) {
+      EXPECT_EQ(coarse.Opposite()[static_cast<size_t>(o)], static_cast<int>(h));
+    }
   }
   const Flattening flat = Flatten(coarse.Mesh());
   ASSERT_TRUE(flat.ok) << flat.why;
@@ -77,7 +80,7 @@ TEST(VertexSweeps, EvenOutLowersTheEnergyAndFlipsNothing) {
   options.linf_finish = false;
   const Flattening flat = Flatten(chart, options);
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> shift(-0.008, 0.008);  // edges are about 0.05 long
+  std::uniform_real_distribution<double> shift(-0.003, 0.003);  // edges are about 0.05 long
   PlanePoints uv = ToPlanePoints(flat.uv);
   for (Complex& z : uv) z += Complex(shift(random), shift(random));
   ASSERT_EQ(MeasureStretch(chart, ToPoints(uv, 1)).FlippedOrDegenerate(), 0);
@@ -86,7 +89,7 @@ TEST(VertexSweeps, EvenOutLowersTheEnergyAndFlipsNothing) {
   VertexSweeps(static_cast<int>(uv.size()), chart.triangles, shapes).EvenOut({}, uv);
   const StretchFigures after = MeasureStretch(chart, ToPoints(uv, 1));
   EXPECT_EQ(after.FlippedOrDegenerate(), 0);
-  EXPECT_GT(before - 1, 1.5 * (flat.l2_stretch - 1));  // else there was nothing to do
+  EXPECT_GT(before - 1, 1.2 * (flat.l2_stretch - 1));  // else there was nothing to do
   EXPECT_LT(after.L2() - 1, 1.05 * (flat.l2_stretch - 1));
 }
 

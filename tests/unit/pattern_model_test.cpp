@@ -262,7 +262,7 @@ TEST(PatternModel, PiecesTooSmallToSewAreNamed) {
     EXPECT_EQ(named, small);
     return named;
   };
-  EXPECT_GT(warned(60), 0);
+  EXPECT_GT(warned(35), 0);
   EXPECT_EQ(warned(500), 0);
 }
 

@@ -140,33 +140,45 @@ std::vector<double> VertexSweeps::Contractions(const PlanePoints& uv) const {
 }
 
 void VertexSweeps::LowerWorst(const std::function<void()>& poll, PlanePoints& uv) const {
-  constexpr int kMostRounds = 20, kSweepsPerRound = 3;
-  constexpr double kBad = 0.4;                         // of the worst: what has to move
+  constexpr int kMostRounds = 60, kSweepsPerRound = 4, kPatience = 3;
   constexpr double kReference = 0.85, kLittle = 0.01;  // of the worst
-  constexpr std::size_t kMost = 10;  // one triangle of so many; where more are bad it isn't only a few places
+  constexpr std::size_t kMost = 10;  // one vertex of so many moves: only a few places are bad
   std::vector<FanTriangle> fan;
-  double last = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity();
+  int without_gain = 0;
   for (int round = 0; round < kMostRounds; ++round) {
     if (poll) poll();
     const std::vector<double> contractions = Contractions(uv);
     const double worst = *std::max_element(contractions.begin(), contractions.end());
-    if (!(worst < (1 - kLittle) * last) || !(worst > 0)) return;
-    last = worst;
-    std::vector<char> bad(uv.size(), 0), near(uv.size(), 0);
-    for (int t = 0; t < static_cast<int>(shapes_.size()); ++t)
-      if (contractions[At(t)] > kBad * worst)
-        for (int i = 0; i < 3; ++i) bad[At(triangles_(t, i))] = 1;
-    for (int t = 0; t < static_cast<int>(shapes_.size()); ++t)
-      if (bad[At(triangles_(t, 0))] || bad[At(triangles_(t, 1))] || bad[At(triangles_(t, 2))])
-        for (int i = 0; i < 3; ++i) near[At(triangles_(t, i))] = 1;
+    without_gain = worst < (1 - kLittle) * least ? 0 : without_gain + 1;
+    if (without_gain == kPatience || !(worst > 0)) return;
+    least = std::min(least, worst);
     std::vector<int> vertices;
-    for (int v = 0; v < static_cast<int>(uv.size()); ++v)
-      if (near[At(v)]) vertices.push_back(v);
-    if (kMost * vertices.size() > uv.size()) return;
+    for (const double bad : {0.3, 0.5, 0.7, 0.85}) {
+      vertices = VerticesNear(contractions, bad * worst);
+      if (kMost * vertices.size() <= uv.size()) break;
+      vertices.clear();
+    }
+    if (vertices.empty()) return;
     const StretchEnergy energy{StretchEnergy::Kind::kSanderTail, 12, kReference * worst};
     for (int sweep = 0; sweep < kSweepsPerRound; ++sweep)
       for (int v : vertices) Step(energy, v, fan, uv);
   }
+}
+
+std::vector<int> VertexSweeps::VerticesNear(const std::vector<double>& contractions, double bound) const {
+  std::vector<char> bad(first_.size() - 1, 0), near(bad.size(), 0);
+  const auto corner = [&](int t, int i) { return At(triangles_(t, i)); };
+  for (int t = 0; t < static_cast<int>(shapes_.size()); ++t)
+    if (contractions[At(t)] > bound)
+      for (int i = 0; i < 3; ++i) bad[corner(t, i)] = 1;
+  for (int t = 0; t < static_cast<int>(shapes_.size()); ++t)
+    if (bad[corner(t, 0)] || bad[corner(t, 1)] || bad[corner(t, 2)])
+      for (int i = 0; i < 3; ++i) near[corner(t, i)] = 1;
+  std::vector<int> vertices;
+  for (int v = 0; v < static_cast<int>(near.size()); ++v)
+    if (near[At(v)]) vertices.push_back(v);
+  return vertices;
 }
 
 }  // namespace dcharts

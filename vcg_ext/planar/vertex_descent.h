@@ -48,6 +48,9 @@ class VertexSweeps {
   /// Per triangle TriangleContraction, 0 for slivers.
   std::vector<double> Contractions(const PlanePoints& uv) const;
 
+  /// The vertices of triangles contracted by more than `bound`, and their neighbours.
+  std::vector<int> VerticesNear(const std::vector<double>& contractions, double bound) const;
+
   const Triangles& triangles_;
   const RestShapes& shapes_;
   std::vector<int> first_, corners_;  // the corners at vertex v: corners_[first_[v]] up to first_[v + 1]

@@ -21,6 +21,14 @@
 namespace dcharts {
 namespace {
 
+// Member by member: GCC 12 destroys what a braced list has made twice when the memory ends in the midst of
+// it.
+DartedChart Uncut(ChartPatch patch) {
+  DartedChart chart;
+  chart.patch = std::move(patch);
+  return chart;
+}
+
 // Area-weighted mean of the worst stretch of the faces around each vertex.
 std::vector<double> VertexStretch(const ChartPatch& patch, const Points2& uv) {
   std::vector<double> sum(patch.VertexCount(), 0), weight(patch.VertexCount(), 0);
@@ -132,7 +140,7 @@ bool CutConePoints(const DartGoal& goal, const std::function<void()>& poll, Dart
   constexpr double kL2PerUnit = 0.005, kNoStretch = 1e-5;
   std::vector<int> points = ConePoints(chart.patch, PatchPaths(chart.patch));
   if (points.empty()) return false;
-  DartedChart darted{{}, 0, {}, chart.patch, {}};
+  DartedChart darted = Uncut(chart.patch);
   std::vector<int> corner_of;  // a vertex may get another number by a cut, a corner doesn't
   for (int v : points) {
     int h = 0;
@@ -245,7 +253,10 @@ class DartSearch {
 
   // One more dart; false when it doesn't help.
   bool Try(int tip, const std::vector<int>& cut, double length, DartedChart& trial) {
-    trial = {cut, 1, {tip}, CutOpen(chart_.patch, cut), {}};
+    trial = Uncut(CutOpen(chart_.patch, cut));
+    trial.edges = cut;
+    trial.count = 1;
+    trial.tips.push_back(tip);
     // Most darts don't help, which shows in a map without the finish, made from the one the chart has.
     if (!plain_) {
       plain_ = HasFinish(goal_) ? FlatWithoutFinish(chart_.patch, &chart_.flat.uv, poll_) : chart_.flat;
@@ -299,8 +310,7 @@ bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, 
 DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll) {
   constexpr int kEnoughFaces = 20000;
   constexpr double kHopeless = 1.2;  // of the goal's L2 - 1
-  DartedChart chart;
-  chart.patch = patch;
+  DartedChart chart = Uncut(patch);
   const CoarseChart coarse(patch.mesh, kEnoughFaces);
   if (!IsLargeChart(coarse.Mesh())) {
     const DartedChart darted =
@@ -324,7 +334,9 @@ DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const s
   }
   chart.flat = FlatAsAsked(chart.patch, goal, poll);
   if (chart.count == 0 || (chart.flat.ok && !Overlaps(chart))) return chart;
-  return {{}, 0, {}, patch, FlatAsAsked(patch, goal, poll)};
+  chart = Uncut(patch);
+  chart.flat = FlatAsAsked(patch, goal, poll);
+  return chart;
 }
 
 }  // namespace
@@ -332,8 +344,7 @@ DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const s
 DartedChart CutStretchDarts(const ChartPatch& patch, const Flattening* known, const DartGoal& goal,
                             const std::function<void()>& poll) {
   if (IsLargeChart(patch.mesh)) return CutLargeChart(patch, goal, poll);
-  DartedChart chart;
-  chart.patch = patch;
+  DartedChart chart = Uncut(patch);
   chart.flat = known ? *known : FlatAsAsked(patch, goal, poll);
   if (!chart.flat.ok || CutConePoints(goal, poll, chart)) return chart;
   if (HasFinish(goal) && chart.flat.l2_stretch > goal.l2_stretch && !CutForMeanStretch(goal, poll, chart))
