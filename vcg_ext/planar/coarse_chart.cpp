@@ -68,7 +68,8 @@ Complex InsideKernel(const std::vector<FanTriangle>& fan) {
 
 }  // namespace
 
-CoarseChart::CoarseChart(const ChartMesh& chart, int target_faces) : chart_(chart) {
+CoarseChart::CoarseChart(const ChartMesh& chart, int target_faces, const std::function<void()>& poll)
+    : chart_(chart) {
   FannedSurface surface;
   const int face_count = static_cast<int>(chart.triangles.rows());
   for (int v = 0; v < chart.positions.rows(); ++v) {
@@ -77,7 +78,8 @@ CoarseChart::CoarseChart(const ChartMesh& chart, int target_faces) : chart_(char
   }
   surface.vertex.assign(chart.triangles.data(), chart.triangles.data() + 3 * face_count);
   surface.opposite = Opposites(chart.triangles);
-  const CollapsingMesh left = Coarsened(surface, ChartIds(At(face_count), 0), target_faces, &history_).mesh;
+  const CollapsingMesh left =
+      Coarsened(surface, ChartIds(At(face_count), 0), target_faces, &history_, poll).mesh;
   std::vector<int> new_vertex(surface.positions.size(), -1);
   for (int v = 0; v < chart.positions.rows(); ++v) {
     if (!left.VertexLives(v)) continue;

@@ -17,7 +17,7 @@ namespace dcharts {
 class CoarseChart {
  public:
   /// `chart` must have an area of about 1 and outlive this object.
-  CoarseChart(const ChartMesh& chart, int target_faces);
+  CoarseChart(const ChartMesh& chart, int target_faces, const std::function<void()>& poll = {});
 
   const ChartMesh& Mesh() const { return mesh_; }
   const std::vector<int>& SourceVertices() const { return source_; }    ///< of the chart, per vertex

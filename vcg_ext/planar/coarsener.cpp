@@ -50,9 +50,10 @@ Shape ShapeOf(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
 
 class Coarsener {
  public:
-  Coarsener(const FannedSurface& surface, const ChartIds& ids)
+  Coarsener(const FannedSurface& surface, const ChartIds& ids, const std::function<void()>& poll)
       : surface_(surface),
         ids_(ids),
+        poll_(poll),
         fixed_(FixedVertices(surface)),
         mesh_(surface.vertex, surface.opposite, static_cast<int>(surface.positions.size())),
         lines_(mesh_, ids_, fixed_) {}
@@ -65,8 +66,13 @@ class Coarsener {
     CountFaces();
     SumQuadrics();
     key_.assign(positions_.size(), kNever);
-    for (int v = 0; v < static_cast<int>(positions_.size()); ++v) Push(v, LeastBound(v));
+    for (int v = 0; v < static_cast<int>(positions_.size()); ++v) {
+      PollNowAndThen(v);
+      Push(v, LeastBound(v));
+    }
+    int steps = 0;
     while (!queue_.empty() && mesh_.FaceCount() > target_faces) {
+      PollNowAndThen(steps++);
       const auto [key, u] = queue_.top();
       queue_.pop();
       if (key != key_[u] || !mesh_.VertexLives(u)) continue;
@@ -105,6 +111,11 @@ class Coarsener {
     std::vector<char> fixed;
     for (int s : surface.source_vertex) fixed.push_back(fans[s] > 1);
     return fixed;
+  }
+
+  void PollNowAndThen(int step) const {
+    constexpr int kPollEvery = 8192;
+    if (poll_ && step % kPollEvery == 0) poll_();
   }
 
   // Costs are relative: to unit area, with the origin inside.
@@ -288,6 +299,7 @@ class Coarsener {
 
   const FannedSurface& surface_;
   const ChartIds& ids_;
+  const std::function<void()>& poll_;
   CollapseHistory* history_ = nullptr;
   std::vector<int> heir_;
   std::vector<char> fixed_;
@@ -311,8 +323,8 @@ class Coarsener {
 }  // namespace
 
 CoarsenedSurface Coarsened(const FannedSurface& surface, const ChartIds& ids, int target_faces,
-                           CollapseHistory* history) {
-  Coarsener coarsener(surface, ids);
+                           CollapseHistory* history, const std::function<void()>& poll) {
+  Coarsener coarsener(surface, ids, poll);
   coarsener.Run(target_faces, history);
   return coarsener.Take();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -36,8 +37,9 @@ struct CoarsenedSurface {
 };
 
 /// Collapses edges of a surface with charts, see CoarsenCharts: those that change the shape least first,
-/// until at most `target_faces` faces are left or no edge may be collapsed. `history` may be null.
+/// until at most `target_faces` faces are left or no edge may be collapsed. `history` may be null,
+/// `poll` is called now and then and may throw.
 CoarsenedSurface Coarsened(const FannedSurface& surface, const ChartIds& ids, int target_faces,
-                           CollapseHistory* history);
+                           CollapseHistory* history, const std::function<void()>& poll);
 
 }  // namespace dcharts

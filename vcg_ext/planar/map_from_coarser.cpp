@@ -16,7 +16,7 @@ std::optional<PlanePoints> MapFromCoarser(const ChartMesh& chart,
                                           const std::function<void()>& poll, RestShapes& shapes) {
   constexpr int kCoarser = 4;  // times fewer triangles
   if (poll) poll();
-  const CoarseChart coarse(chart, static_cast<int>(chart.triangles.rows()) / kCoarser);
+  const CoarseChart coarse(chart, static_cast<int>(chart.triangles.rows()) / kCoarser, poll);
   if (2 * coarse.Mesh().triangles.rows() > chart.triangles.rows()) return std::nullopt;
   const Points2 flat = flatten(coarse.Mesh());
   if (flat.rows() == 0) return std::nullopt;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 #include <utility>
@@ -24,13 +25,14 @@ class ChartParts {
   static constexpr int kFineFaces = 75000;
 
   /// Every face must have a chart. `surface` must outlive the parts.
-  ChartParts(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, int fine_faces = kFineFaces)
+  ChartParts(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, int fine_faces = kFineFaces,
+             const std::function<void()>& poll = {})
       : face_count_(surface.FaceCount()),
         area_(ChartCount(ids), 0),
         borders_(area_.size()),
         unit_(std::sqrt(surface.TotalArea())),
-        fine_(surface, ids, fine_faces),
-        coarse_(fine_.Graph(), fine_.Ids(), std::max(kCoarseFaces, kFacesPerPart * Count())) {
+        fine_(surface, ids, fine_faces, poll),
+        coarse_(fine_.Graph(), fine_.Ids(), std::max(kCoarseFaces, kFacesPerPart * Count()), poll) {
     for (int f = 0; f < surface.FaceCount(); ++f) area_[ids[f]] += surface.Area(f) / surface.TotalArea();
     for (int h = 0; h < surface.HalfEdgeCount(); ++h) {
       const int g = surface.Neighbour(h);

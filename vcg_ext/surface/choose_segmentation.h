@@ -62,7 +62,7 @@ class SegmentationChooser {
     constexpr int kEnoughFaces = 50000, kFacesPerChart = 100;
     const int most = std::max(kEnoughFaces, kFacesPerChart * params_.chart_count);
     if (most >= surface_.FaceCount()) return Lloyd<MeshType>(surface_, params_, progress_).Run();
-    CoarseCopy copy(surface_, ChartIds(surface_.FaceCount(), 0), most);
+    CoarseCopy copy(surface_, ChartIds(surface_.FaceCount(), 0), most, [&] { progress_.Poll(); });
     DenoiseNormals(copy.Graph());
     progress_.Update(0.3);
     constexpr double kShare = 0.7;

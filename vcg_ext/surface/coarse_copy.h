@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "surface/chart_patch.h"
@@ -14,8 +15,9 @@ class CoarseCopy {
  public:
   /// See CoarsenCharts. Every face must have a chart.
   template <class MeshType>
-  CoarseCopy(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, int target_faces)
-      : coarse_(CoarsenCharts(surface, ids, target_faces)),
+  CoarseCopy(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, int target_faces,
+             const std::function<void()>& poll = {})
+      : coarse_(CoarsenCharts(surface, ids, target_faces, poll)),
         graph_(*coarse_.mesh),
         no_seams_(graph_.FaceCount(), 0),
         extractor_(graph_, no_seams_),

@@ -8,8 +8,9 @@
 
 namespace dcharts {
 
-CoarseSurface CoarsenFanned(const FannedSurface& surface, const ChartIds& ids, int target_faces) {
-  CoarsenedSurface coarsened = Coarsened(surface, ids, target_faces, nullptr);
+CoarseSurface CoarsenFanned(const FannedSurface& surface, const ChartIds& ids, int target_faces,
+                            const std::function<void()>& poll) {
+  CoarsenedSurface coarsened = Coarsened(surface, ids, target_faces, nullptr, poll);
   const CollapsingMesh& left = coarsened.mesh;
   CoarseSurface coarse;
   coarse.mesh = std::make_unique<SurfaceMesh>();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -24,7 +25,8 @@ struct CoarseSurface {
 };
 
 /// See CoarsenCharts.
-CoarseSurface CoarsenFanned(const FannedSurface& surface, const ChartIds& ids, int target_faces);
+CoarseSurface CoarsenFanned(const FannedSurface& surface, const ChartIds& ids, int target_faces,
+                            const std::function<void()>& poll);
 
 /// Collapses edges, those that change the shape least first (quadric error [Garland and Heckbert 1997]),
 /// until at most `target_faces` faces are left or no edge may be collapsed; at once with all faces when there
@@ -35,8 +37,10 @@ CoarseSurface CoarsenFanned(const FannedSurface& surface, const ChartIds& ids, i
 /// mesh isn't manifold, vertices stay; borders are only shortened along themselves, to no less than two edges
 /// (three around a loop), and a chart to no less than 30 faces. Small charts get more faces for their area.
 /// Any `ids` are taken, unassigned faces as one more chart. Deterministic.
+/// `poll` is called now and then and may throw.
 template <class MeshType>
-CoarseSurface CoarsenCharts(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, int target_faces) {
+CoarseSurface CoarsenCharts(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, int target_faces,
+                            const std::function<void()>& poll = {}) {
   CutVertices fans = GlueCorners(surface.HalfEdgeCount(), [&](int h) { return surface.Opposite(h); });
   FannedSurface fanned;
   fanned.positions.resize(fans.count);
@@ -49,7 +53,7 @@ CoarseSurface CoarsenCharts(const SurfaceGraph<MeshType>& surface, const ChartId
     fanned.opposite[h] = surface.Opposite(h);
   }
   fanned.vertex = std::move(fans.of_corner);
-  return CoarsenFanned(fanned, ids, target_faces);
+  return CoarsenFanned(fanned, ids, target_faces, poll);
 }
 
 }  // namespace dcharts

@@ -21,7 +21,11 @@ template <class MeshType>
 class HoleFiller {
  public:
   HoleFiller(const SurfaceGraph<MeshType>& surface, const Params& params, Progress& progress)
-      : surface_(surface), params_(params), progress_(progress), seeds_(surface), growth_(surface, params) {}
+      : surface_(surface),
+        params_(params),
+        progress_(progress),
+        seeds_(surface),
+        growth_(surface, params, [&progress] { progress.Poll(); }) {}
 
   /// Leaves no face unassigned.
   void Run(ChartIds& ids) {

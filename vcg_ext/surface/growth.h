@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "common/params.h"
@@ -26,8 +28,10 @@ class Growth {
  public:
   static constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
-  Growth(const SurfaceGraph<MeshType>& surface, const Params& params)
+  /// `poll` is called now and then and may throw.
+  Growth(const SurfaceGraph<MeshType>& surface, const Params& params, std::function<void()> poll = {})
       : surface_(surface),
+        poll_(std::move(poll)),
         alpha_(params.fitting_weight),
         beta_(params.compactness_weight),
         gamma_(params.straightness_weight),
@@ -87,7 +91,9 @@ class Growth {
   }
 
   void GrowAll() {
-    while (!key_.empty() && best_[1] >= 0) {
+    constexpr int kPollEvery = 65536;
+    for (int step = 0; !key_.empty() && best_[1] >= 0; ++step) {
+      if (poll_ && step % kPollEvery == 0) poll_();
       const int c = best_[1];
       auto& queue = queues_[c];
       if (Stale(c, queue.front())) {  // another chart took the face meanwhile
@@ -168,6 +174,7 @@ class Growth {
   }
 
   const SurfaceGraph<MeshType>& surface_;
+  const std::function<void()> poll_;
   double alpha_, beta_, gamma_;
   std::vector<double> distance_;  // D(S,t)
   const std::vector<GrowingChart>* charts_ = nullptr;

@@ -27,7 +27,11 @@ template <class MeshType>
 class Lloyd {
  public:
   Lloyd(const SurfaceGraph<MeshType>& surface, const Params& params, Progress& progress)
-      : surface_(surface), params_(params), progress_(progress), seeds_(surface), growth_(surface, params) {}
+      : surface_(surface),
+        params_(params),
+        progress_(progress),
+        seeds_(surface),
+        growth_(surface, params, [&progress] { progress.Poll(); }) {}
 
   /// How many charts params.target_charts are best merged from. Measured: with fewer, merging has too little
   /// choice; more cost time and gain little.

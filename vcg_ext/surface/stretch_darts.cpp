@@ -308,10 +308,10 @@ bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, 
 // A large chart gets the darts that a coarser one gets: each to the same vertex, along the shortest way there
 // is here. A chart without them when they don't serve here.
 DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll) {
-  constexpr int kEnoughFaces = 20000;
+  constexpr int kEnoughFaces = 8000;
   constexpr double kHopeless = 1.2;  // of the goal's L2 - 1
   DartedChart chart = Uncut(patch);
-  const CoarseChart coarse(patch.mesh, kEnoughFaces);
+  const CoarseChart coarse(patch.mesh, kEnoughFaces, poll);
   if (!IsLargeChart(coarse.Mesh())) {
     const DartedChart darted =
         CutStretchDarts({coarse.SourceFaces(), coarse.Mesh(), coarse.Opposite()}, nullptr, goal, poll);

@@ -27,7 +27,7 @@ class TrialMerger {
   /// last the borders are moved to better places.
   void Run(ChartIds& ids) {
     Split(ids);
-    ChartParts<MeshType> parts(surface_, ids);
+    ChartParts<MeshType> parts(surface_, ids, ChartParts<MeshType>::kFineFaces, [&] { progress_.Poll(); });
     ChartGroups<MeshType> groups(parts, params_, progress_);
     CheckedMerger<MeshType>(groups).Run();
     const std::vector<int> owner = groups.Owners();
@@ -43,7 +43,7 @@ class TrialMerger {
   /// segmentations of one surface by.
   double CoarseCost(ChartIds ids) {
     Split(ids);
-    ChartParts<MeshType> parts(surface_, ids);
+    ChartParts<MeshType> parts(surface_, ids, ChartParts<MeshType>::kFineFaces, [&] { progress_.Poll(); });
     ChartGroups<MeshType> groups(parts, params_, progress_);
     GreedyMerger<MeshType> greedy(groups);
     groups.bound = params_.StretchBound();
