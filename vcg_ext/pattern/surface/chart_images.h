@@ -20,7 +20,8 @@ class ChartImages {
   /// Of a mesh that isn't symmetric nothing follows.
   explicit ChartImages(const MirroredHalves& halves) : halves_(halves) {}
 
-  /// Which charts are the exact images of others, of which those with the larger ids follow, or of themselves.
+  /// Which charts are the exact images of others, of which those with the larger ids follow, or of
+  /// themselves.
   void Pair(const ChartIds& ids);
 
   const MirroredHalves& Halves() const { return halves_; }
@@ -38,7 +39,8 @@ class ChartImages {
   int ImageChart(const ChartIds& ids, int id) const;
 
   /// A chart that is its own image becomes two at the plane, one of which follows the other.
-  void PartAtPlane(const SurfaceGraph<SurfaceMesh>& surface, int id, int new_id, ChartIds& ids, SeamMask& seams);
+  void PartAtPlane(const SurfaceGraph<SurfaceMesh>& surface, int id, int new_id, ChartIds& ids,
+                   SeamMask& seams);
 
   /// The same, for the chart to be given to others. The part next to chart `neighbour` keeps the id;
   /// returns that of the other.

@@ -32,11 +32,13 @@ void ChartsForPattern::LayFlat(ChartIds& ids, SeamMask& seams, const KnownFlatte
     images_.Pair(ids);
     ChartIds flat_ids = ids;
     SeamMask flat_seams = seams;
-    wedge_ = Parameterizer<SurfaceMesh>(surface_, flatten, known, progress_).LayFlatApart(flat_ids, flat_seams);
+    wedge_ =
+        Parameterizer<SurfaceMesh>(surface_, flatten, known, progress_).LayFlatApart(flat_ids, flat_seams);
     // Charts that are their own images and were cut are parted at the plane first.
     std::vector<int> cut;
     for (int f = 0; f < surface_.FaceCount(); ++f)
-      if (images_.IsOwnImage(f) && (flat_ids[f] != ids[f] || flat_seams[f] != seams[f])) cut.push_back(ids[f]);
+      if (images_.IsOwnImage(f) && (flat_ids[f] != ids[f] || flat_seams[f] != seams[f]))
+        cut.push_back(ids[f]);
     if (cut.empty()) {
       ids = std::move(flat_ids);
       seams = std::move(flat_seams);

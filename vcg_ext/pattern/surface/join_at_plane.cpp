@@ -27,7 +27,8 @@ using Poll = std::function<void()>;
 /// Tries to make one chart of two that are each other's images.
 class ImageJoiner {
  public:
-  ImageJoiner(const Surface& surface, const MirroredHalves& halves, const Params& params, const SeamMask& seams)
+  ImageJoiner(const Surface& surface, const MirroredHalves& halves, const Params& params,
+              const SeamMask& seams)
       : surface_(surface), halves_(halves), params_(params), seams_(seams) {}
 
   /// `faces`: of one of the two. Returns the half-edges whose seam mark is to change; empty when they are not
@@ -78,13 +79,15 @@ class ImageJoiner {
     }
     std::vector<std::pair<double, std::vector<int>>> sorted;
     for (auto& entry : runs) sorted.push_back(std::move(entry.second));
-    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<std::vector<int>> result;
     for (auto& entry : sorted) result.push_back(std::move(entry.second));
     return result;
   }
 
-  std::vector<int> Joined(const std::vector<int>& faces, const std::vector<int>& glued, const Poll& poll) const {
+  std::vector<int> Joined(const std::vector<int>& faces, const std::vector<int>& glued,
+                          const Poll& poll) const {
     SeamMask seams = seams_;
     for (int h : glued)
       for (int side : {h, surface_.Opposite(h)}) ClearSeam(seams, side);
@@ -96,7 +99,9 @@ class ImageJoiner {
       SeamMask cut = seams;
       for (int h : darts) SetSeam(cut, h);
       const ChartPatch open = PatchExtractor<SurfaceMesh>(surface_, cut).Extract(faces);
-      if (!IsWhole(open) || !IsOpen(open) || !LiesFlat(open, darts.empty() && darted.edges.empty() ? &darted.flat : nullptr, poll)) continue;
+      if (!IsWhole(open) || !IsOpen(open) ||
+          !LiesFlat(open, darts.empty() && darted.edges.empty() ? &darted.flat : nullptr, poll))
+        continue;
       std::vector<int> changed;
       for (int f : faces)
         for (int h = 3 * f; h < 3 * f + 3; ++h)
@@ -171,7 +176,7 @@ class ImageJoiner {
 }  // namespace
 
 void JoinAtPlane(const Surface& surface, const MirroredHalves& halves, const Params& params,
-                    Progress& progress, ChartIds& ids, SeamMask& seams) {
+                 Progress& progress, ChartIds& ids, SeamMask& seams) {
   std::vector<std::vector<int>> charts;
   for (auto& faces : FacesOfCharts(ids))
     if (halves.IsInFirst(faces.front())) charts.push_back(std::move(faces));

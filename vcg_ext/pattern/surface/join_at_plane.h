@@ -13,7 +13,7 @@ namespace dcharts {
 /// bound on stretch and as params.method lays them, with cuts that are their own mirror images: a chart that
 /// would go round a hole stays open along the plane. `ids` and `seams` are of charts that end at the plane,
 /// and symmetric; they are so afterwards.
-void JoinAtPlane(const SurfaceGraph<SurfaceMesh>& surface, const MirroredHalves& halves,
-                    const Params& params, Progress& progress, ChartIds& ids, SeamMask& seams);
+void JoinAtPlane(const SurfaceGraph<SurfaceMesh>& surface, const MirroredHalves& halves, const Params& params,
+                 Progress& progress, ChartIds& ids, SeamMask& seams);
 
 }  // namespace dcharts

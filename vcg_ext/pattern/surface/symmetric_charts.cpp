@@ -57,7 +57,7 @@ class HalfCharts {
 
   // Parts of charts that are mostly elsewhere.
   void GiveAwayRests(const std::vector<double>& whole, const ChartIds& old_ids, ChartIds& ids) {
-    constexpr double kRest = 0.4;  // one that the plane halves is no rest
+    constexpr double kRest = 0.4;                // one that the plane halves is no rest
     std::map<int, std::pair<double, int>> area;  // of the charts of the half, and their old ids
     for (int f = 0; f < surface_.FaceCount(); ++f) {
       if (!IsKept(f)) continue;
