@@ -21,7 +21,7 @@ ChartIds Halves(const TestSurface& surface) {
 TEST(ChartParts, ASmallSurfaceIsItsOwnFineCopy) {
   const TestSurface surface(shapes::Sphere(6));
   const ChartIds ids = Halves(surface);
-  ChartParts<SurfaceMesh> parts(*surface, ids);
+  ChartParts<SurfaceMesh> parts(*surface, ids, false);
   EXPECT_EQ(parts.SurfaceFaceCount(), surface->FaceCount());
   const ChartPatch both = parts.FinePatch({0, 1});
   std::vector<int> all(ids.size());
@@ -39,7 +39,7 @@ TEST(ChartParts, ALargeSurfaceHasCopiesWithFewerFaces) {
   const TestSurface surface(shapes::Sphere(20));
   ASSERT_EQ(surface->FaceCount(), 8000);
   const ChartIds ids = Halves(surface);
-  ChartParts<SurfaceMesh> parts(*surface, ids, 5000);
+  ChartParts<SurfaceMesh> parts(*surface, ids, false, 5000);
   EXPECT_EQ(parts.SurfaceFaceCount(), 8000);
   const ChartPatch fine = parts.FinePatch({0, 1}), coarse = parts.CoarsePatch({0, 1}),
                    half = parts.FinePatch({1});

@@ -20,7 +20,8 @@ class DissolveCharts : public ::testing::Test {
   DissolveCharts()
       : surface_(shapes::Grid(16, 16)),
         parts_(*surface_,
-               surface_.Paint([](const auto& p) { return std::clamp(static_cast<int>(p[0] * 4), 0, 3); })),
+               surface_.Paint([](const auto& p) { return std::clamp(static_cast<int>(p[0] * 4), 0, 3); }),
+               false),
         groups_(parts_, params_, progress_) {
     groups_.bound = params_.StretchBound();
     middle_ = groups_.Join(1, 2, groups_.Trial({1, 2}));
@@ -44,6 +45,16 @@ class DissolveCharts : public ::testing::Test {
   ChartGroups<SurfaceMesh> groups_;
   int middle_ = -1;
 };
+
+TEST_F(DissolveCharts, PartsThatOverlapAreNotTriedWithOthers) {
+  groups_.overlapping.push_back({0, 1});
+  EXPECT_TRUE(groups_.HoldsOverlap({0, 1, 2}));
+  EXPECT_FALSE(groups_.HoldsOverlap({0, 2}));
+  EXPECT_FALSE(groups_.Trial({0, 1, 2}).flat);
+  EXPECT_TRUE(groups_.Trial({1, 2}).flat);
+  params_.target_charts = 2;
+  EXPECT_FALSE(groups_.HoldsOverlap({0, 1, 2}));
+}
 
 TEST_F(DissolveCharts, GoesWholeToANeighbour) {
   ChartDissolver<SurfaceMesh> dissolver(groups_);

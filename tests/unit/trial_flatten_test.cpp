@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planar/trial_flatten.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
+#include "common/pi.h"
 #include "flatten_charts.h"
 #include "planar/distortion.h"
 #include "planar/flatten.h"
@@ -67,6 +70,26 @@ TEST(TrialFlatten, StartsFromUvsWithoutFlips) {
   const TrialFlattening trial = TrialFlatten(chart, options);
   ASSERT_TRUE(trial.ok);
   EXPECT_EQ(MeasureStretch(chart, trial.uv).FlippedOrDegenerate(), 0);
+}
+
+// A flat ring one and a half times around: its ends lie on each other.
+ChartMesh LongRing(double turns) {
+  return GridChart(60, 8, [&](double u, double v) {
+    const double angle = turns * 2 * kPi * u, radius = 2 + v;
+    return Eigen::RowVector3d(radius * std::cos(angle), radius * std::sin(angle), 0.05 * angle);
+  });
+}
+
+TEST(TrialFlatten, OverlapsAreRefusedOnRequest) {
+  TrialOptions options;
+  for (const bool no_overlap : {false, true}) {
+    options.no_overlap = no_overlap;
+    EXPECT_TRUE(TrialFlatten(LongRing(0.7), options).ok);
+    const TrialFlattening trial = TrialFlatten(LongRing(1.4), options);
+    EXPECT_EQ(trial.ok, !no_overlap);
+    EXPECT_FALSE(trial.rejected);
+    EXPECT_EQ(trial.overlaps, no_overlap ? kClearOverlap : 0u);
+  }
 }
 
 TEST(TrialFlatten, SaysWhyThereIsNoMap) {

@@ -11,6 +11,7 @@
 #include "planar/line_search.h"
 #include "planar/map_from_coarser.h"
 #include "planar/normalized_chart.h"
+#include "planar/overlap.h"
 #include "planar/plane_points.h"
 #include "planar/rest_shapes.h"
 #include "planar/stretch_descent.h"
@@ -48,9 +49,33 @@ TrialFlattening Measured(const NormalizedChart& normalized, const RestShapes& sh
   return result;
 }
 
-TrialFlattening Judged(TrialFlattening trial, double bound) {
-  trial.ok = trial.l2_stretch - 1 <= bound;
-  trial.rejected = !trial.ok;
+// The triangles that would overlap first. Where no triangle is flipped and there is one boundary loop, a map
+// overlaps itself only where that crosses itself.
+Triangles RimOf(const Triangles& triangles) {
+  const std::vector<std::vector<int>> loops = BoundaryLoops(triangles);
+  if (loops.size() != 1) return triangles;
+  std::vector<int> next(static_cast<size_t>(triangles.maxCoeff()) + 1, -1);
+  for (size_t i = 0; i < loops[0].size(); ++i)
+    next[static_cast<size_t>(loops[0][i])] = loops[0][(i + 1) % loops[0].size()];
+  Triangles rim(triangles.rows(), 3);
+  Eigen::Index count = 0;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (next[static_cast<size_t>(triangles(t, k))] == triangles(t, (k + 1) % 3)) {
+        rim.row(count++) = triangles.row(t);
+        break;
+      }
+  return rim.topRows(count);
+}
+
+size_t CountOverlaps(const Points2& uv, const Triangles& rim) {
+  return rim.rows() > 0 ? OverlappingPairs(OnGrid(uv, rim), kClearOverlap).size() : 0;
+}
+
+TrialFlattening Judged(TrialFlattening trial, const TrialOptions& options, const Triangles& rim) {
+  trial.rejected = !(trial.l2_stretch <= options.l2_bound);
+  if (!trial.rejected) trial.overlaps = CountOverlaps(trial.uv, rim);
+  trial.ok = !trial.rejected && trial.overlaps == 0;
   return trial;
 }
 
@@ -76,11 +101,11 @@ TrialFlattening TrialFlatten(const ChartMesh& chart, const TrialOptions& options
   if (poll) poll();
 
   const Triangles& triangles = chart.triangles;
-  const double bound = options.l2_bound - 1;
   RestShapes shapes = RestShapesOf(normalized.mesh);
+  const Triangles rim = options.no_overlap ? RimOf(triangles) : Triangles();
   if (IsLargeChart(chart)) {
     if (const std::optional<PlanePoints> uv = NearStart(normalized.mesh, options.start, poll, shapes))
-      return Judged(Measured(normalized, shapes, *uv), bound);
+      return Judged(Measured(normalized, shapes, *uv), options, rim);
     TrialFlattening coarse;
     const auto flatten = [&](const ChartMesh& mesh) {
       TrialOptions of_coarse = options;
@@ -89,8 +114,8 @@ TrialFlattening TrialFlatten(const ChartMesh& chart, const TrialOptions& options
       return coarse.ok ? coarse.uv : Points2();
     };
     const std::optional<PlanePoints> uv = MapFromCoarser(normalized.mesh, flatten, poll, shapes);
-    if (uv) return Judged(Measured(normalized, shapes, *uv), bound);
-    if (coarse.rejected || !coarse.why.empty()) return coarse;
+    if (uv) return Judged(Measured(normalized, shapes, *uv), options, rim);
+    if (coarse.rejected || coarse.overlaps > 0 || !coarse.why.empty()) return coarse;
   }
   VertexBlockSystem system(static_cast<int>(chart.positions.rows()), triangles);
   PlanePoints uv;
@@ -100,15 +125,20 @@ TrialFlattening TrialFlatten(const ChartMesh& chart, const TrialOptions& options
     energy = Descend({Kind::kSymmetricDirichlet}, {StepKind::kReweighted, kReweightedSteps, 0}, triangles,
                      shapes, system, poll, uv);
   }
+  if (CountOverlaps(ToPoints(uv, 1.0), rim) >= kClearOverlap) {
+    TrialFlattening trial = Measured(normalized, shapes, uv);
+    trial.overlaps = kClearOverlap;
+    return trial;
+  }
   if (energy < kFarFromFlat) {
     RelaxSlivers(triangles, uv, shapes);
     // At the best scale of the map, Sander's energy is L2 - 1.
     DescentOptions steps{StepKind::kProjectedNewton, options.newton_steps, kCloseEnough};
-    steps.bound = bound;
-    if (options.decide_only) steps.enough = bound;
+    steps.bound = options.l2_bound - 1;
+    if (options.decide_only) steps.enough = steps.bound;
     Descend({Kind::kSander}, steps, triangles, shapes, system, poll, uv);
   }
-  return Judged(Measured(normalized, shapes, uv), bound);
+  return Judged(Measured(normalized, shapes, uv), options, rim);
 }
 
 }  // namespace dcharts

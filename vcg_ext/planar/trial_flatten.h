@@ -16,6 +16,8 @@ struct TrialOptions {
   /// The first map whose stretch is within the bound will do: the answer is the same, `l2_stretch` less
   /// exact.
   bool decide_only = false;
+  /// A map that overlaps itself won't do; the trial ends early when its start overlaps clearly.
+  bool no_overlap = false;
   /// Most Newton steps; 3 are within a tenth of the full flattening's L2 - 1 on nine charts of ten.
   int newton_steps = 4;
   /// UVs to start from, #V by 2 in any scale, for instance those the chart had before a dart was cut into it.
@@ -23,9 +25,13 @@ struct TrialOptions {
   const Points2* start = nullptr;
 };
 
+/// With no_overlap: a map whose rim overlaps in so many pairs of triangles stays so, whatever is done to it.
+constexpr size_t kClearOverlap = 4;
+
 struct TrialFlattening {
-  bool ok = false;        ///< a map without flips was found whose L2 stretch is within the bound
+  bool ok = false;        ///< a map without flips was found that is as the options ask
   bool rejected = false;  ///< not ok because of the bound: the figures are those of the last map, above it
+  size_t overlaps = 0;    ///< with no_overlap: pairs of triangles that overlap, at most kClearOverlap
   std::string why;        ///< why there is no map at all (not flat, not a chart); empty when ok or rejected
   double energy = 0;      ///< area-weighted mean of symmetric Dirichlet / 4 - 1 at the map's own scale, >= 0
   double l2_stretch = 0;  ///< at the chart's own scale, as Flattening's; an overestimate of what that reaches

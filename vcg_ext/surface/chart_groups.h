@@ -109,7 +109,8 @@ struct ChartGroups {
     if (tried_bound == 0 || (!trial.flat && tried_bound < CoarseBound())) {
       progress.Poll();
       tried_bound = CoarseBound();
-      trial = TryChart(parts.CoarsePatch(some), tried_bound, Poll());
+      trial = HoldsOverlap(some) ? ChartTrial{} : TryChart(parts.CoarsePatch(some), tried_bound, Poll());
+      if (trial.overlaps) overlapping.push_back(some);
     }
     return trial;
   }
@@ -130,7 +131,19 @@ struct ChartGroups {
     ParallelFor(static_cast<int>(open.size()), progress, [&](int k, const std::function<void()>& poll) {
       made[k] = TryChart(patches[k], CoarseBound(), poll);
     });
-    for (size_t k = 0; k < open.size(); ++k) trials[*open[k]] = {CoarseBound(), made[k]};
+    for (size_t k = 0; k < open.size(); ++k) {
+      trials[*open[k]] = {CoarseBound(), made[k]};
+      if (made[k].overlaps) overlapping.push_back(*open[k]);
+    }
+  }
+
+  /// What overlaps itself still does with more around it, as nearly isometric maps hardly change by that. Not
+  /// quite always: with a target the best merges are wanted, and this is not relied on.
+  bool HoldsOverlap(const std::vector<int>& some) const {
+    return params.target_charts == 0 &&
+           std::any_of(overlapping.begin(), overlapping.end(), [&](const std::vector<int>& smaller) {
+             return std::includes(some.begin(), some.end(), smaller.begin(), smaller.end());
+           });
   }
 
   /// The chart of each part.
@@ -200,6 +213,7 @@ struct ChartGroups {
   int alive = 0;
   double bound = kNoBound;                                           ///< on the L2 stretch of a chart
   std::map<std::vector<int>, std::pair<double, ChartTrial>> trials;  ///< of parts: bound, trial
+  std::vector<std::vector<int>> overlapping;                         ///< parts whose chart overlapped itself
   std::set<std::pair<int, int>> apart;  ///< parts that are not to be in one chart: they would overlap, or a
                                         ///< kept border is between them
 };

@@ -24,15 +24,17 @@ class ChartParts {
   /// The most faces that checks are made on: enough to tell how flat a chart lies.
   static constexpr int kFineFaces = 75000;
 
-  /// Every face must have a chart. `surface` must outlive the parts.
-  ChartParts(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, int fine_faces = kFineFaces,
-             const std::function<void()>& poll = {})
+  /// Every face must have a chart. `surface` must outlive the parts. `rank`: trials are to say which of many
+  /// merges is best, not only which will do; that takes more faces.
+  ChartParts(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, bool rank,
+             int fine_faces = kFineFaces, const std::function<void()>& poll = {})
       : face_count_(surface.FaceCount()),
         area_(ChartCount(ids), 0),
         borders_(area_.size()),
         unit_(std::sqrt(surface.TotalArea())),
         fine_(surface, ids, fine_faces, poll),
-        coarse_(fine_.Graph(), fine_.Ids(), std::max(kCoarseFaces, kFacesPerPart * Count()), poll) {
+        coarse_(fine_.Graph(), fine_.Ids(),
+                std::max(kCoarseFaces, (rank ? kFacesToRank : kFacesPerPart) * Count()), poll) {
     for (int f = 0; f < surface.FaceCount(); ++f) area_[ids[f]] += surface.Area(f) / surface.TotalArea();
     for (int h = 0; h < surface.HalfEdgeCount(); ++h) {
       const int g = surface.Neighbour(h);
@@ -60,8 +62,7 @@ class ChartParts {
   int SurfaceFaceCount() const { return face_count_; }
 
  private:
-  // Enough faces to rank merges by.
-  static constexpr int kCoarseFaces = 3000, kFacesPerPart = 100;
+  static constexpr int kCoarseFaces = 3000, kFacesPerPart = 50, kFacesToRank = 100;
 
   static ChartPatch Patch(const std::vector<int>& parts, CoarseCopy& copy) {
     std::vector<int> faces;

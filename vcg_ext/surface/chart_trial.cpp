@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface/chart_trial.h"
 
-#include "planar/overlap.h"
 #include "planar/trial_flatten.h"
 #include "surface/open_chart.h"
 
@@ -24,10 +23,12 @@ ChartTrial TryChart(const ChartPatch& patch, double bound, const std::function<v
   const ChartPatch open = Opened(patch, trial.cut_length);
   TrialOptions options;
   options.l2_bound = bound;
+  options.no_overlap = true;
   const TrialFlattening flat = TrialFlatten(open.mesh, options, poll);
   trial.stretch = flat.l2_stretch;
   trial.energy = flat.energy;
-  trial.flat = flat.ok && OverlappingPairs(OnGrid(flat.uv, open.mesh.triangles), 1).empty();
+  trial.overlaps = flat.overlaps >= kClearOverlap;
+  trial.flat = flat.ok;
   return trial;
 }
 

@@ -11,6 +11,7 @@ namespace dcharts {
 /// What it would cost to have a patch as a chart of the atlas.
 struct ChartTrial {
   bool flat = false;      ///< it can be flattened within the bound, and doesn't overlap itself then
+  bool overlaps = false;  ///< clearly: so will whatever holds this patch
   double stretch = 0;     ///< L2 stretch at the chart's own scale, >= 1; 0 when there is no map at all
   double energy = 0;      ///< symmetric Dirichlet / 4 - 1, mean over the area, >= 0
   double cut_length = 0;  ///< of the cuts it needs to lie flat, model units

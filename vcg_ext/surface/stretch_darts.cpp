@@ -130,9 +130,11 @@ std::vector<int> ConePoints(const ChartPatch& patch, const PatchPaths& paths) {
   return points;
 }
 
-bool Overlaps(const DartedChart& chart) {
-  return !OverlappingPairs(OnGrid(chart.flat.uv, chart.patch.mesh.triangles), 1).empty();
+size_t CountOverlaps(const DartedChart& chart, size_t most) {
+  return OverlappingPairs(OnGrid(chart.flat.uv, chart.patch.mesh.triangles), most).size();
 }
+
+bool Overlaps(const DartedChart& chart) { return CountOverlaps(chart, 1) > 0; }
 
 // A dart to each cone point, when the chart has no stretch at all then and that is worth the length: one by
 // one they would not lower the worst stretch.
@@ -267,8 +269,13 @@ class DartSearch {
     if (chart_.flat.l2_stretch <= goal.l2_stretch)  // though not quite by the quick map
       goal.l2_stretch = std::max(goal.l2_stretch, plain_->l2_stretch);
     if (!Helps(*plain_, trial.flat, length, goal)) return false;
-    // What laps over a little may not do so with the finish.
-    if (!HasFinish(goal_) && !Overlaps(trial)) return true;
+    if (!HasFinish(goal_)) {
+      // What laps over a little may not do so with the finish.
+      constexpr size_t kLittle = 20;
+      const size_t overlaps = CountOverlaps(trial, kLittle);
+      if (overlaps == 0) return true;
+      if (overlaps == kLittle) return false;
+    }
     trial.flat = FlatWithFinish(trial.patch, goal_, poll_);
     return Helps(chart_.flat, trial.flat, length, goal_) && !Overlaps(trial);
   }

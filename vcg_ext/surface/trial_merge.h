@@ -27,7 +27,7 @@ class TrialMerger {
   /// last the borders are moved to better places.
   void Run(ChartIds& ids) {
     Split(ids);
-    ChartParts<MeshType> parts(surface_, ids, ChartParts<MeshType>::kFineFaces, [&] { progress_.Poll(); });
+    ChartParts<MeshType> parts = Parts(ids);
     ChartGroups<MeshType> groups(parts, params_, progress_);
     CheckedMerger<MeshType>(groups).Run();
     const std::vector<int> owner = groups.Owners();
@@ -43,7 +43,7 @@ class TrialMerger {
   /// segmentations of one surface by.
   double CoarseCost(ChartIds ids) {
     Split(ids);
-    ChartParts<MeshType> parts(surface_, ids, ChartParts<MeshType>::kFineFaces, [&] { progress_.Poll(); });
+    ChartParts<MeshType> parts = Parts(ids);
     ChartGroups<MeshType> groups(parts, params_, progress_);
     GreedyMerger<MeshType> greedy(groups);
     groups.bound = params_.StretchBound();
@@ -62,6 +62,11 @@ class TrialMerger {
   void Split(ChartIds& ids) {
     constexpr double kGood = 1.01;  // a segment that lies flat worse than this is better split
     SplitBadCharts(surface_, std::min(kGood, params_.StretchBound()), progress_, ids);
+  }
+
+  ChartParts<MeshType> Parts(const ChartIds& ids) const {
+    return ChartParts<MeshType>(surface_, ids, params_.target_charts > 0, ChartParts<MeshType>::kFineFaces,
+                                [&] { progress_.Poll(); });
   }
 
   const SurfaceGraph<MeshType>& surface_;
