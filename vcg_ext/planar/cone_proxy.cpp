@@ -19,12 +19,6 @@ void NormalMoments::Add(const NormalMoments& other) {
   second += other.second;
 }
 
-double FittingError(const ConeProxy& proxy, const Eigen::Vector3d& normal) {
-  if (normal.isZero(0)) return 0;
-  const double d = proxy.axis.dot(normal) - proxy.cos_angle;
-  return d * d;
-}
-
 ConeProxy FitCone(const NormalMoments& moments, double* mean_error) {
   ConeProxy proxy;
   if (mean_error) *mean_error = 0;

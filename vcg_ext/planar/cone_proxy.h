@@ -22,7 +22,11 @@ struct ConeProxy {
 };
 
 /// F(C,t) of Eq. 1, 0..4: (N_C . n_t - cos theta_C)^2. A face without area (zero normal) fits everything: 0.
-double FittingError(const ConeProxy& proxy, const Eigen::Vector3d& normal);
+inline double FittingError(const ConeProxy& proxy, const Eigen::Vector3d& normal) {
+  if (normal.isZero(0)) return 0;
+  const double d = proxy.axis.dot(normal) - proxy.cos_angle;
+  return d * d;
+}
 
 /// The proxy that minimizes the mean fitting error (Eq. 3), in closed form: for a given axis the best cosine
 /// is the mean of N.n, so the axis is the eigenvector of the smallest eigenvalue of the centred covariance of

@@ -145,11 +145,16 @@ class Growth {
       // An F of 0 would make every cost 0 and the order arbitrary.
       constexpr double kFloor = 1e-3;
       const double straightness = inner > 0 ? outer / inner : (outer > 0 ? 1e6 : 0);
-      entry.cost = std::pow(error + kFloor, alpha_) * std::pow(kPi * entry.distance * entry.distance, beta_) *
-                   std::pow(straightness, gamma_);
+      entry.cost = Power(error + kFloor, alpha_) * Power(kPi * entry.distance * entry.distance, beta_) *
+                   Power(straightness, gamma_);
       queues_[c].push_back(entry);
       std::push_heap(queues_[c].begin(), queues_[c].end());
     }
+  }
+
+  // Most weights are 1.
+  static double Power(double base, double exponent) {
+    return exponent == 1 ? base : std::pow(base, exponent);
   }
 
   bool Stale(int c, const Entry& entry) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -52,7 +53,9 @@ class Lloyd {
   /// From charts that are nearly right: as few iterations as set them right.
   Segmentation RunFrom(std::vector<GrowingChart> charts) {
     constexpr int kFewIterations = 2;
-    return Iterate(std::move(charts), std::min(kFewIterations, params_.max_iterations));
+    Iterations run;
+    run.charts = std::move(charts);
+    return Iterate(run, std::min(kFewIterations, params_.max_iterations));
   }
 
   /// The charts of a segmentation, with its own proxies and seeds.
@@ -85,12 +88,9 @@ class Lloyd {
     std::vector<int> counts;
     for (int count = 1; counts.empty() || counts.back() < most; count = std::max(count + 1, count * 5 / 4))
       counts.push_back(std::min(count, most));
-    int iterations = 0;
     const auto is_good = [&](size_t i) {
       if (i + 1 == counts.size()) return true;  // there are no more
-      const Segmentation trial = Iterate(counts[i], std::min(kTrialIterations, params_.max_iterations));
-      iterations += trial.iterations;
-      return trial.energy <= GoodEnergy();
+      return Iterate(counts[i], std::min(kTrialIterations, params_.max_iterations)).energy <= GoodEnergy();
     };
     size_t low = 0, high = std::min(2 * kStride, counts.size()) - 1;
     while (!is_good(high)) {
@@ -105,39 +105,49 @@ class Lloyd {
         low = middle + 1;
     }
     Segmentation result = Iterate(counts[low], params_.max_iterations);
-    result.iterations += iterations;
+    result.iterations = 0;
+    for (auto& run : runs_) result.iterations += run.second.best.iterations;
     return result;
   }
 
+  // Iterations that can be gone on with.
+  struct Iterations {
+    std::vector<GrowingChart> charts;
+    Segmentation best;
+    ChartIds previous;
+    double gained_from = std::numeric_limits<double>::infinity();
+    int without_gain = 0;
+    bool done = false;
+  };
+
   Segmentation Iterate(int count, int max_iterations) {
-    return Iterate(seeds_.FarthestPoints(count), max_iterations);
+    auto& run = runs_[count];
+    if (run.charts.empty()) run.charts = seeds_.FarthestPoints(count);
+    return Iterate(run, max_iterations);
   }
 
-  Segmentation Iterate(std::vector<GrowingChart> charts, int max_iterations) {
+  Segmentation Iterate(Iterations& run, int max_iterations) {
     // The iterations may swing without end: they stop when nothing was gained for a while.
     constexpr int kPatience = 6;
     constexpr double kGain = 0.005;
-    Segmentation best;
-    ChartIds ids, previous;
-    double gained_from = std::numeric_limits<double>::infinity();
-    int without_gain = 0;
-    for (int iteration = 1; iteration <= max_iterations; ++iteration) {
+    ChartIds ids;
+    for (int iteration = run.best.iterations + 1; iteration <= max_iterations && !run.done; ++iteration) {
       progress_.Update(iteration / (iteration + 5.0));
       ids.assign(surface_.FaceCount(), kUnassigned);
-      growth_.FromSeeds(charts, params_.max_fitting_error, ids);
-      Keep(ids, charts, best);
-      best.iterations = iteration;
-      if (iteration > 1 && Reassigned(previous, ids) < params_.reassigned_percent / 100) break;
-      previous = ids;
-      const bool gained = best.energy < (1 - kGain) * gained_from;
-      if (gained) gained_from = best.energy;
-      without_gain = gained ? 0 : without_gain + 1;
-      if (without_gain >= kPatience) break;
-
-      charts = ChartsOf(ids);
+      growth_.FromSeeds(run.charts, params_.max_fitting_error, ids);
+      Keep(ids, run.charts, run.best);
+      run.best.iterations = iteration;
+      const bool gained = run.best.energy < (1 - kGain) * run.gained_from;
+      if (gained) run.gained_from = run.best.energy;
+      run.without_gain = gained ? 0 : run.without_gain + 1;
+      run.done = (iteration > 1 && Reassigned(run.previous, ids) < params_.reassigned_percent / 100) ||
+                 run.without_gain >= kPatience;
+      if (!run.done) run.charts = ChartsOf(ids);
+      run.previous.swap(ids);
     }
-    RemoveSpecks(best.ids);
-    return best;
+    Segmentation result = run.best;
+    RemoveSpecks(result.ids);
+    return result;
   }
 
   // The iterations may swing: the best one counts.
@@ -185,6 +195,7 @@ class Lloyd {
   Progress& progress_;
   Seeds<MeshType> seeds_;
   Growth<MeshType> growth_;
+  std::map<int, Iterations> runs_;  // from so many of the farthest points
 };
 
 }  // namespace dcharts

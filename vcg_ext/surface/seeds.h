@@ -27,20 +27,16 @@ class Seeds {
   /// centroid of the surface); each of the next is the face farthest from the seeds so far. Components
   /// without a seed come first.
   std::vector<GrowingChart> FarthestPoints(int count) {
-    count = std::min(count, surface_.FaceCount());
-    auto everywhere = [](int) { return true; };
-    std::vector<GrowingChart> charts;
-    int next = Extremity(everywhere);
-    for (int i = 0; i < count; ++i) {
-      if (i == 0)
-        distance_.Run({next}, everywhere);
-      else
-        distance_.Extend({next}, everywhere);
-      charts.push_back({next, ProxyAtSeed(next)});
-      next = Farthest();
-      if (distance_[next] <= 0) break;
+    const auto everywhere = [](int) { return true; };
+    const auto wanted = static_cast<size_t>(std::min(count, surface_.FaceCount()));
+    // Those of a smaller count come first.
+    while (farthest_.size() < wanted) {
+      const int next = farthest_.empty() ? Extremity(everywhere) : Farthest();
+      if (!farthest_.empty() && distance_[next] <= 0) break;
+      distance_.Extend({next}, everywhere);
+      farthest_.push_back({next, ProxyAtSeed(next)});
     }
-    return charts;
+    return {farthest_.begin(), farthest_.begin() + std::min(wanted, farthest_.size())};
   }
 
   /// The best of the proxies of the three vertex rings of the seed: the one that fits the seed best.
@@ -120,8 +116,10 @@ class Seeds {
 
   // From the seeds so far; in components without one, the extremity of them all.
   int Farthest() const {
-    const int unreached = Extremity([&](int f) { return distance_[f] == DualDistance<MeshType>::kFar; });
-    if (unreached >= 0) return unreached;
+    if (distance_.Reached().size() < static_cast<size_t>(surface_.FaceCount())) {
+      const int unreached = Extremity([&](int f) { return distance_[f] == DualDistance<MeshType>::kFar; });
+      if (unreached >= 0) return unreached;
+    }
     int best = 0;
     double farthest = -1;
     for (int f = 0; f < surface_.FaceCount(); ++f)
@@ -133,7 +131,8 @@ class Seeds {
   }
 
   const SurfaceGraph<MeshType>& surface_;
-  DualDistance<MeshType> distance_;
+  DualDistance<MeshType> distance_;  // from all of farthest_
+  std::vector<GrowingChart> farthest_;
   mutable std::vector<double> errors_, sorted_;
 };
 
