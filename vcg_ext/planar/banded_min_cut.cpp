@@ -61,7 +61,7 @@ int Groups(const Adjacency& adjacency, const std::vector<FlowEdge>& edges, std::
 
 // The cut of the graph in which each group is one node.
 std::vector<bool> CutOfGroups(const std::vector<double>& pull, const std::vector<FlowEdge>& edges,
-                              const std::vector<int>& group, int count) {
+                              const std::vector<int>& group, int count, const std::function<void()>& poll) {
   std::vector<double> pull_of_group(count, 0);
   for (size_t n = 0; n < pull.size(); ++n) pull_of_group[group[n]] += pull[n];
   std::vector<FlowEdge> between;
@@ -79,19 +79,23 @@ std::vector<bool> CutOfGroups(const std::vector<double>& pull, const std::vector
     else
       joined.push_back(e);
   }
-  return BandedMinCut(pull_of_group, joined);
+  poll();
+  return BandedMinCut(pull_of_group, joined, poll);
 }
 
 }  // namespace
 
-std::vector<bool> BandedMinCut(const std::vector<double>& pull, const std::vector<FlowEdge>& edges) {
+std::vector<bool> BandedMinCut(const std::vector<double>& pull, const std::vector<FlowEdge>& edges,
+                               const std::function<void()>& poll) {
   constexpr size_t kManyNodes = 20000;
   if (pull.size() <= kManyNodes) return MinCut(pull, edges);
   const Adjacency adjacency(static_cast<int>(pull.size()), edges);
   std::vector<int> group;
   const int count = Groups(adjacency, edges, group);
+  poll();
   if (2 * static_cast<size_t>(count) > pull.size()) return MinCut(pull, edges);
-  const std::vector<bool> of_groups = CutOfGroups(pull, edges, group, count);
+  const std::vector<bool> of_groups = CutOfGroups(pull, edges, group, count, poll);
+  poll();
   std::vector<bool> side(pull.size());
   for (size_t n = 0; n < side.size(); ++n) side[n] = of_groups[group[n]];
 
@@ -125,6 +129,7 @@ std::vector<bool> BandedMinCut(const std::vector<double>& pull, const std::vecto
     else if (b >= 0)
       pull_of_free[b] += side[e.a] ? e.capacity : -e.capacity;
   }
+  poll();
   const std::vector<bool> of_free = MinCut(pull_of_free, between);
   for (size_t k = 0; k < free.size(); ++k) side[free[k]] = of_free[k];
   return side;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <vector>
 
 namespace dcharts {
@@ -23,7 +24,9 @@ std::vector<bool> MinCut(const std::vector<double>& pull, const std::vector<Flow
 
 /// Nearly that in linear time, for large graphs of nodes that hang together: groups of nodes are parted
 /// first, then the nodes near the cut [Lombaert et al., "A Multilevel Banded Graph Cuts Method", 2005]. Exact
-/// below some 20,000 nodes.
-std::vector<bool> BandedMinCut(const std::vector<double>& pull, const std::vector<FlowEdge>& edges);
+/// below some 20,000 nodes. `poll` is called now and then and may throw.
+std::vector<bool> BandedMinCut(
+    const std::vector<double>& pull, const std::vector<FlowEdge>& edges,
+    const std::function<void()>& poll = [] {});
 
 }  // namespace dcharts

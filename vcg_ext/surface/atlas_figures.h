@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "common/progress.h"
 #include "common/report.h"
 #include "planar/distortion.h"
 #include "planar/overlap.h"
@@ -35,7 +36,7 @@ inline WedgeTexcoords WithFiniteTexcoords(WedgeTexcoords uv) {
 /// over equal texcoords. Texcoords must be finite.
 template <class MeshType>
 void MeasureAtlas(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, const WedgeTexcoords& uv,
-                  Report& report) {
+                  Progress& progress, Report& report) {
   const int face_count = surface.FaceCount();
   Eigen::Vector3d low = surface.Position(0, 0), high = low;
   Eigen::Vector2d uv_low = Eigen::Vector2d::Constant(1e300), uv_high = -uv_low;
@@ -87,6 +88,7 @@ void MeasureAtlas(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, co
     else if (signed_area(f) * mirror < 0)
       ++flipped;
   }
+  progress.Poll();
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   report.l2_stretch = degenerate > 0 ? kInfinite : figures.L2();
   report.linf_stretch = degenerate > 0 ? kInfinite : figures.Linf();

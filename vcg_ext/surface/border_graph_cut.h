@@ -126,10 +126,14 @@ class BorderGraphCut {
 
   Outcome StraightenPair(int a, int b, double band, ChartIds& ids) {
     if (charts_[a].area < charts_[b].area) std::swap(a, b);
+    progress_.Poll();
     if (!CollectBand(a, b, band, ids)) return Outcome::kDone;
+    progress_.Poll();
     PriceBand(a, b, ids);
-    side_ = BandedMinCut(pull_, edges_);
+    progress_.Poll();
+    side_ = BandedMinCut(pull_, edges_, [this] { progress_.Poll(); });
     DropIslands(a, b);
+    progress_.Poll();
     return ApplyCut(a, b, ids);
   }
 

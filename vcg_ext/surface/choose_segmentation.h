@@ -63,7 +63,7 @@ class SegmentationChooser {
     const int most = std::max(kEnoughFaces, kFacesPerChart * params_.chart_count);
     if (most >= surface_.FaceCount()) return Lloyd<MeshType>(surface_, params_, progress_).Run();
     CoarseCopy copy(surface_, ChartIds(surface_.FaceCount(), 0), most, [&] { progress_.Poll(); });
-    DenoiseNormals(copy.Graph());
+    DenoiseNormals(copy.Graph(), [&] { progress_.Poll(); });
     progress_.Update(0.3);
     constexpr double kShare = 0.7;
     Progress part([&](int percent, const char*) {

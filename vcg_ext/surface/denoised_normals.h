@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -83,14 +84,14 @@ class NormalDenoiser {
 
   /// Unit length; faces without area keep their zero. Reads nothing of the faces' order but the last digits
   /// of sums.
-  std::vector<Eigen::Vector3d> Run() const {
+  std::vector<Eigen::Vector3d> Run(const std::function<void()>& poll) const {
     // More of either wears down creases and tips.
     constexpr int kMeans = 2, kFits = 2;
     std::vector<Eigen::Vector3d> normals(surface_.FaceCount());
     for (int f = 0; f < surface_.FaceCount(); ++f) normals[f] = surface_.Normal(f);
     std::vector<Eigen::Vector3d> guide = normals;
-    for (int k = 0; k < kMeans; ++k) guide = Means(guide);
-    for (int k = 0; k < kFits; ++k) guide = normals = Fits(normals, guide);
+    for (int k = 0; k < kMeans; ++k) guide = Means(guide, poll);
+    for (int k = 0; k < kFits; ++k) guide = normals = Fits(normals, guide, poll);
     return normals;
   }
 
@@ -98,6 +99,7 @@ class NormalDenoiser {
   // A vertex off by `noise` edges turns a face by about twice that, in radians; normals farther apart than
   // three times as much are of two sides, those of a crease of 45 degrees always.
   static constexpr double kTurnPerNoise = 2, kUnlike = 3, kMostUnlike = 0.4;
+  static constexpr size_t kPollEvery = 65536;  // faces
 
   double Likeness(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
     return std::exp(-(a - b).squaredNorm() / (2 * range_ * range_));
@@ -108,9 +110,11 @@ class NormalDenoiser {
     return norm > 0 ? Eigen::Vector3d(sum / norm) : otherwise;
   }
 
-  std::vector<Eigen::Vector3d> Means(const std::vector<Eigen::Vector3d>& normals) const {
+  std::vector<Eigen::Vector3d> Means(const std::vector<Eigen::Vector3d>& normals,
+                                     const std::function<void()>& poll) const {
     std::vector<Eigen::Vector3d> means(normals.size());
     for (size_t f = 0; f < normals.size(); ++f) {
+      if (f % kPollEvery == 0) poll();
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
       for (int k = start_[f]; k < start_[f + 1]; ++k) {
         const Eigen::Vector3d& other = normals[around_[k]];
@@ -123,11 +127,13 @@ class NormalDenoiser {
 
   // Faces are on one side where those of `guide` are alike.
   std::vector<Eigen::Vector3d> Fits(const std::vector<Eigen::Vector3d>& normals,
-                                    const std::vector<Eigen::Vector3d>& guide) const {
+                                    const std::vector<Eigen::Vector3d>& guide,
+                                    const std::function<void()>& poll) const {
     // Where all lie in one line, or nearly, the slope across it is unknown: it is drawn to 0.
     constexpr double kRidge = 0.1;
     std::vector<Eigen::Vector3d> fits = normals;
     for (size_t f = 0; f < normals.size(); ++f) {
+      if (f % kPollEvery == 0) poll();
       if (guide[f].isZero(0)) continue;
       const Eigen::Vector3d u = guide[f].unitOrthogonal(), v = guide[f].cross(u);
       Eigen::Matrix3d left = Eigen::Matrix3d::Zero(), right = Eigen::Matrix3d::Zero();
@@ -170,13 +176,16 @@ class NormalDenoiser {
 };
 
 /// Where the surface is noisy (scans), gives its faces denoised normals, for the analysis only: no vertex
-/// moves. Others stay as they are to the last bit. True where it was noisy.
+/// moves. Others stay as they are to the last bit. True where it was noisy. `poll` is called now and then and
+/// may throw.
 template <class MeshType>
-bool DenoiseNormals(SurfaceGraph<MeshType>& surface) {
+bool DenoiseNormals(
+    SurfaceGraph<MeshType>& surface, const std::function<void()>& poll = [] {}) {
   constexpr double kNoisy = 0.035;  // of the edges; clean scans are below 0.025
   const double noise = VertexNoise(surface);
+  poll();
   if (noise < kNoisy) return false;
-  surface.SetNormals(NormalDenoiser<MeshType>(surface, noise).Run());
+  surface.SetNormals(NormalDenoiser<MeshType>(surface, noise).Run(poll));
   return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <string>
 
 #include "surface/atlas_figures.h"
@@ -50,6 +51,12 @@ class Stage {
   std::chrono::steady_clock::time_point start_;
 };
 
+// What a workspace calls while it is made.
+std::function<void()> WhileReading(Progress& progress) {
+  progress.BeginStage("Reading the mesh...", 0, 0);
+  return [&progress] { progress.Poll(); };
+}
+
 void ReportCharts(const Workspace& work, const ChartIds& ids, const SeamMask& seams, Report& report) {
   report.charts = ChartCount(ids);
   report.unassigned_faces = static_cast<int>(std::count(ids.begin(), ids.end(), kUnassigned));
@@ -92,16 +99,17 @@ void FinishAtlas(Workspace& work, ChartIds& ids, SeamMask& seams, const KnownFla
   work.WarnOfReplacedTexcoords(progress);
   change.remove_seams = true;
   ReportCharts(work, ids, seams, change.report);
+  progress.Poll();
   if (params.target_charts > 0 && ChartCount(ids) != params.target_charts)
     progress.Log(std::to_string(params.target_charts) + " charts were asked for, the atlas has " +
                  std::to_string(ChartCount(ids)) + ".");
-  MeasureAtlas(work.Surface(), ids, uv, change.report);
+  MeasureAtlas(work.Surface(), ids, uv, progress, change.report);
 }
 
 }  // namespace
 
 SurfaceChange Segment(const SurfaceData& mesh, const Params& params, Progress& progress) {
-  Workspace work(mesh);
+  Workspace work(mesh, WhileReading(progress));
   work.KeepBorders(params, progress);
   SurfaceChange change;
   Segmentation result;
@@ -114,7 +122,7 @@ SurfaceChange Segment(const SurfaceData& mesh, const Params& params, Progress& p
 }
 
 SurfaceChange Fill(const SurfaceData& mesh, const Params& params, Progress& progress) {
-  Workspace work(mesh);
+  Workspace work(mesh, WhileReading(progress));
   work.KeepBorders(params, progress);
   SurfaceChange change;
   ChartIds ids = work.ReadCharts();
@@ -126,7 +134,7 @@ SurfaceChange Fill(const SurfaceData& mesh, const Params& params, Progress& prog
 }
 
 SurfaceChange Straighten(const SurfaceData& mesh, const Params& params, Progress& progress) {
-  Workspace work(mesh);
+  Workspace work(mesh, WhileReading(progress));
   work.KeepBorders(params, progress);
   SurfaceChange change;
   ChartIds ids = work.ReadFilledCharts(progress);
@@ -138,7 +146,7 @@ SurfaceChange Straighten(const SurfaceData& mesh, const Params& params, Progress
 }
 
 SurfaceChange Merge(const SurfaceData& mesh, const Params& params, Progress& progress) {
-  Workspace work(mesh);
+  Workspace work(mesh, WhileReading(progress));
   work.KeepBorders(params, progress);
   SurfaceChange change;
   ChartIds ids = work.ReadFilledCharts(progress);
@@ -150,7 +158,7 @@ SurfaceChange Merge(const SurfaceData& mesh, const Params& params, Progress& pro
 }
 
 SurfaceChange Cut(const SurfaceData& mesh, const Params& params, Progress& progress) {
-  Workspace work(mesh);
+  Workspace work(mesh, WhileReading(progress));
   work.KeepBorders(params, progress);
   SurfaceChange change;
   ChartIds ids = work.ReadFilledCharts(progress);
@@ -172,7 +180,7 @@ SurfaceChange Cut(const SurfaceData& mesh, const Params& params, Progress& progr
 }
 
 SurfaceChange Parameterize(const SurfaceData& mesh, const Params& params, Progress& progress) {
-  Workspace work(mesh);
+  Workspace work(mesh, WhileReading(progress));
   SurfaceChange change;
   ChartIds ids = work.ReadFilledCharts(progress);
   SeamMask seams;
@@ -212,7 +220,7 @@ void MakeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, 
 }
 
 SurfaceChange TextureAtlas(const SurfaceData& mesh, const Params& params, Progress& progress) {
-  Workspace work(mesh);
+  Workspace work(mesh, WhileReading(progress));
   work.KeepBorders(params, progress);
   SurfaceChange change;
   ChartIds ids;
@@ -226,7 +234,7 @@ SurfaceChange TextureAtlas(const SurfaceData& mesh, const Params& params, Progre
 }
 
 SurfaceChange Measure(const SurfaceData& mesh, const Params&, Progress& progress) {
-  const Workspace work(mesh);
+  const Workspace work(mesh, WhileReading(progress));
   SurfaceChange change;
   Stage stage("measure", "Measuring...", 0, 1, progress, change.report);
   if (!work.HasTexcoords()) {
@@ -244,7 +252,7 @@ SurfaceChange Measure(const SurfaceData& mesh, const Params&, Progress& progress
   for (const auto& t : uv)
     outside += std::any_of(t.begin(), t.end(), [](float x) { return !(x >= 0 && x <= 1); });
   if (outside > 0) progress.Log(std::to_string(outside) + " faces have texture coordinates outside [0,1].");
-  MeasureAtlas(work.Surface(), ids, WithFiniteTexcoords(uv), change.report);
+  MeasureAtlas(work.Surface(), ids, WithFiniteTexcoords(uv), progress, change.report);
   return change;
 }
 

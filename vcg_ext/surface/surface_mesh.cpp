@@ -36,13 +36,15 @@ bool HasRepeatedVertex(const std::array<int, 3>& face) {
 
 }  // namespace
 
-BuiltSurface BuildSurface(const SurfaceData& data, SurfaceMesh& mesh) {
+BuiltSurface BuildSurface(const SurfaceData& data, SurfaceMesh& mesh, const std::function<void()>& poll) {
   CheckInput(data);
+  poll();
   BuiltSurface built;
   built.source_face.reserve(data.faces.size());
   for (int f = 0; f < static_cast<int>(data.faces.size()); ++f)
     if (!HasRepeatedVertex(data.faces[f])) built.source_face.push_back(f);
   SortForMemory(data, built.source_face);
+  poll();
 
   // Two steps, so that neither the box nor the area leaves the range of double.
   vcg::Box3d box;
@@ -69,6 +71,7 @@ BuiltSurface BuildSurface(const SurfaceData& data, SurfaceMesh& mesh) {
   constexpr double kRounding = 1e-15;  // what faces without area may seem to have in the unit box
   if (!(area > kRounding)) throw Error(kZeroArea);
   const double scale = 1 / std::sqrt(area);
+  poll();
 
   mesh.Clear();
   auto vertex = vcg::tri::Allocator<SurfaceMesh>::AddVertices(mesh, data.vertices.size());
@@ -83,7 +86,9 @@ BuiltSurface BuildSurface(const SurfaceData& data, SurfaceMesh& mesh) {
     for (int i = 0; i < 3; ++i) face->V(i) = &mesh.vert[data.faces[f][i]];
     ++face;
   }
+  poll();
   vcg::tri::UpdateTopology<SurfaceMesh>::FaceFace(mesh);
+  poll();
   return built;
 }
 

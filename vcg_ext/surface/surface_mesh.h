@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+
 #include <vcg/complex/complex.h>
 #include <vcg/complex/algorithms/update/topology.h>
 
@@ -30,7 +32,8 @@ struct BuiltSurface {
 /// Copies `data` into `mesh` (cleared first), centred and scaled to unit area, with face-face topology.
 /// Faces with a repeated vertex are left out: they have no area and would break the topology.
 /// Throws Error, with a sentence for the user, for: no faces, NaN or infinite coordinates, a surface of zero
-/// area.
-BuiltSurface BuildSurface(const SurfaceData& data, SurfaceMesh& mesh);
+/// area. `poll` is called now and then and may throw.
+BuiltSurface BuildSurface(
+    const SurfaceData& data, SurfaceMesh& mesh, const std::function<void()>& poll = [] {});
 
 }  // namespace dcharts

@@ -11,9 +11,10 @@
 
 namespace dcharts {
 
-Workspace::Workspace(const SurfaceData& data)
-    : data_(data), built_(BuildSurface(data, mesh_)), surface_(mesh_) {
-  DenoiseNormals(surface_);
+Workspace::Workspace(const SurfaceData& data, const std::function<void()>& poll)
+    : data_(data), built_(BuildSurface(data, mesh_, poll)), surface_(mesh_) {
+  poll();
+  DenoiseNormals(surface_, poll);
 }
 
 void Workspace::KeepBorders(const Params& params, Progress& progress) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "common/params.h"
@@ -17,8 +18,10 @@ namespace dcharts {
 /// faces.
 class Workspace {
  public:
-  /// Throws Error for a mesh that is refused, see BuildSurface. `data` must outlive the workspace.
-  explicit Workspace(const SurfaceData& data);
+  /// Throws Error for a mesh that is refused, see BuildSurface. `data` must outlive the workspace. `poll` is
+  /// called now and then and may throw.
+  explicit Workspace(
+      const SurfaceData& data, const std::function<void()>& poll = [] {});
 
   const SurfaceGraph<SurfaceMesh>& Surface() const { return surface_; }
   /// Per face of the surface: its index in the host's mesh. Vertices have the host's numbers.
