@@ -9,7 +9,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 cd "$repo"
 
 ensure_apt_packages "${build_packages[@]}" libgtest-dev meshlab xvfb xauth openbox xdotool debootstrap \
-  libgl1-mesa-dri ccache git g++-mingw-w64-x86-64-posix
+  libgl1-mesa-dri ccache git parallel g++-mingw-w64-x86-64-posix
 # The plugin for pymeshlab compiles what build/ has compiled already.
 export CMAKE_CXX_COMPILER_LAUNCHER=ccache
 ensure_build -DDCHARTS_BUILD_TESTS=ON
@@ -19,7 +19,7 @@ for host in pymeshlab 2025 2020; do
     fail "The plugin for $host was not built; the messages above say which variable to set."
 done
 ensure_plugin
-ensure_venv pytest pytest-xdist numpy scipy Pillow ezdxf matplotlib ipykernel nbclient clang-format==14.0.6
+ensure_venv pytest pytest-xdist numpy scipy Pillow ezdxf plyfile matplotlib ipykernel nbclient clang-format==14.0.6
 
 failed=()
 step() {
