@@ -105,11 +105,13 @@ struct ChartGroups {
   /// The trial of some parts together, each made once. One that was refused because of a bound is made again
   /// for a larger one.
   const ChartTrial& Trial(const std::vector<int>& some) {
+    static const ChartTrial kNotTried;
     auto& [tried_bound, trial] = trials[some];
+    if (tried_bound == 0 && HoldsOverlap(some)) return kNotTried;
     if (tried_bound == 0 || (!trial.flat && tried_bound < CoarseBound())) {
       progress.Poll();
       tried_bound = CoarseBound();
-      trial = HoldsOverlap(some) ? ChartTrial{} : TryChart(parts.CoarsePatch(some), tried_bound, Poll());
+      trial = TryChart(parts.CoarsePatch(some), tried_bound, Poll());
       if (trial.overlaps) overlapping.push_back(some);
     }
     return trial;
@@ -137,10 +139,10 @@ struct ChartGroups {
     }
   }
 
-  /// What overlaps itself still does with more around it, as nearly isometric maps hardly change by that. Not
-  /// quite always: with a target the best merges are wanted, and this is not relied on.
+  /// What overlaps itself still does with more around it, as nearly isometric maps hardly change by that;
+  /// unless the two close a ring, which is cut open elsewhere. With a target this is not relied on.
   bool HoldsOverlap(const std::vector<int>& some) const {
-    return params.target_charts == 0 &&
+    return overlaps_stay && params.target_charts == 0 &&
            std::any_of(overlapping.begin(), overlapping.end(), [&](const std::vector<int>& smaller) {
              return std::includes(some.begin(), some.end(), smaller.begin(), smaller.end());
            });
@@ -214,6 +216,7 @@ struct ChartGroups {
   double bound = kNoBound;                                           ///< on the L2 stretch of a chart
   std::map<std::vector<int>, std::pair<double, ChartTrial>> trials;  ///< of parts: bound, trial
   std::vector<std::vector<int>> overlapping;                         ///< parts whose chart overlapped itself
+  bool overlaps_stay = true;                                         ///< what holds such parts isn't tried
   std::set<std::pair<int, int>> apart;  ///< parts that are not to be in one chart: they would overlap, or a
                                         ///< kept border is between them
 };

@@ -50,8 +50,13 @@ class CheckedMerger {
     constexpr int kRounds = 12;
     for (int round = 0; round < kRounds; ++round) {
       greedy_.Run();
-      if (!UndoBadMerges()) return;
+      if (UndoBadMerges()) continue;
+      // Of the few pairs that are left, those too that were not tried.
+      if (!groups_.overlaps_stay || groups_.overlapping.empty()) break;
+      groups_.overlaps_stay = false;
+      greedy_.ForgetFailures();
     }
+    groups_.overlaps_stay = true;
   }
 
   // Charts that can be given away in pieces, the smallest first.
