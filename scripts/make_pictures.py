@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the pictures of docs/images anew, from the models of meshes/; those of MeshLab's window from the screenshots
-that the tests leave.
+that the tests leave; those in examples/dcharts.ipynb, with all that its cells give, by running it.
 
     python scripts/make_pictures.py [FOLDER] [--only NAME ...]
     python scripts/make_pictures.py [FOLDER] --screenshots out/screenshots
+    python scripts/make_pictures.py --notebook
 
-Needs the package with what its pictures need (pip install ".[notebook]"). Takes about a minute. FOLDER is docs/images
-when it is not given; NAME is a picture's name without .png. Prints each file with its size."""
+Needs the package with what its pictures need (pip install ".[notebook]"), and nbclient for the notebook. Takes about a
+minute. FOLDER is docs/images when it is not given; NAME is a picture's name without .png. Prints each file with its size."""
 
 import argparse
+import base64
 import functools
 import io
 import pathlib
@@ -27,6 +29,7 @@ from pymeshlab_dcharts.pictures import Model, atlas_picture, charts_picture
 from pymeshlab_dcharts.show import show_pattern
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+NOTEBOOK = ROOT / "examples" / "dcharts.ipynb"
 STAGE_HEIGHT = 380
 # Of a stage: model, which of its best views, width. The same views in each stage, so that one can compare.
 STAGE_PANELS = (("plush", 0, 310), ("plush", 1, 350), ("cad_part", 0, 440))
@@ -145,15 +148,49 @@ def window_picture(folder, name):
     return Image.open(folder / f"2020 window {name}.png").convert("RGB").resize(WINDOW_SIZE, Image.Resampling.LANCZOS)
 
 
-def save(picture, path):
+def smaller(picture, drawing):
     """With a palette of 256 colours: less than half the size. Shades are dithered, else one would see steps."""
     picture = picture.convert("RGB")
-    drawing = path.name.startswith("pattern_")
     method = Image.Quantize.MAXCOVERAGE if drawing else Image.Quantize.MEDIANCUT
     small = picture.quantize(256, method, kmeans=5, dither=Image.Dither.NONE)
     if not drawing:
         small = picture.quantize(palette=small, dither=Image.Dither.FLOYDSTEINBERG)
-    small.save(path, optimize=True)
+    return small
+
+
+def save(picture, path):
+    smaller(picture, path.name.startswith("pattern_")).save(path, optimize=True)
+
+
+def smaller_output(data):
+    """Of a cell's output: its picture with a palette, and no word of how large the figure was."""
+    if "image/png" not in data:
+        return
+    picture = Image.open(io.BytesIO(base64.b64decode(data["image/png"]))).convert("RGB")
+    drawing = (np.asarray(picture).min(2) > 250).mean() > 0.75  # mostly paper
+    png = io.BytesIO()
+    smaller(picture, drawing).save(png, format="png", optimize=True)
+    data["image/png"] = base64.b64encode(png.getvalue()).decode()
+    data["text/plain"] = "<Figure>"
+
+
+def make_notebook():
+    """Runs the notebook in a folder of its own, and keeps what its cells give."""
+    import nbformat
+    from nbclient import NotebookClient
+
+    notebook = nbformat.read(NOTEBOOK, 4)
+    kept = dict(notebook.metadata)
+    with tempfile.TemporaryDirectory() as folder:
+        (pathlib.Path(folder) / "meshes").symlink_to(ROOT / "meshes")
+        NotebookClient(notebook, timeout=900, resources={"metadata": {"path": folder}}).execute()
+    notebook.metadata = nbformat.from_dict(kept)
+    for cell in notebook.cells:
+        cell.metadata = nbformat.from_dict({})  # no times
+        for output in cell.get("outputs", []):
+            smaller_output(output.get("data", {}))
+    nbformat.write(notebook, NOTEBOOK)
+    print(f"{NOTEBOOK}: {NOTEBOOK.stat().st_size / 1024:.0f} KB")
 
 
 def main():
@@ -162,7 +199,11 @@ def main():
     parser.add_argument("--only", nargs="+", choices=PICTURES, default=PICTURES, metavar="NAME",
                         help=", ".join(PICTURES))
     parser.add_argument("--screenshots", type=pathlib.Path, metavar="FOLDER", help="make only those of the window, from these")
+    parser.add_argument("--notebook", action="store_true", help="run examples/dcharts.ipynb instead, and keep its output")
     options = parser.parse_args()
+    if options.notebook:
+        make_notebook()
+        return 0
     pictures = {name: PICTURES[name] for name in options.only}
     if options.screenshots:
         pictures = {f"window_{name}": functools.partial(window_picture, options.screenshots, name) for name in WINDOWS}

@@ -100,6 +100,19 @@ print(*project["build-system"]["requires"], *project["project"].get("dependencie
 PY
 }
 
+# Writes what a build says to file $1, and to the user how far it is: ninja begins lines with [done/all].
+tell_progress() {
+  local line last=0 tenths
+  while IFS= read -r line; do
+    printf '%s\n' "$line" >&3
+    if [[ $line =~ ^[[:space:]]*\[([0-9]+)/([0-9]+)\] ]] && ((BASH_REMATCH[2] >= 20)); then
+      tenths=$((10 * BASH_REMATCH[1] / BASH_REMATCH[2]))
+      ((tenths <= last)) || say "  ${tenths}0 %"
+      last=$tenths
+    fi
+  done 3>"$1"
+}
+
 ensure_plugin() {
   local hash stamp=$venv/dcharts-plugin.sha256 requirements
   ensure_venv
@@ -109,12 +122,12 @@ ensure_plugin() {
   fi
   mapfile -t requirements < <(plugin_requirements)
   ensure_venv "${requirements[@]}"
-  say "Building the plugin for pymeshlab (a few minutes the first time)"
+  say "Building the plugin for pymeshlab (the first time takes some minutes)"
   rm -f "$stamp"
   # Without isolation the build tools are those of .venv, so that a rebuild needs no network.
   local log=$venv/dcharts-build.log
   if ! "$python" -m pip install -v --disable-pip-version-check --no-build-isolation --no-deps --force-reinstall \
-    --config-settings=build-dir="$repo/build-python" "$repo" >"$log" 2>&1; then
+    --config-settings=build-dir="$repo/build-python" "$repo" 2>&1 | tell_progress "$log"; then
     grep -E 'error|Error|fetch-meshlab' "$log" | tail -n 15 >&2
     fail "The plugin could not be built. The whole log is in $log"
   fi
@@ -134,8 +147,8 @@ ensure_build() {
 
 build_targets() {
   local log=$build/build.log
-  say "Building: $*"
-  if ! cmake --build "$build" --target "$@" >"$log" 2>&1; then
+  say "Building: $* (the first time takes some minutes)"
+  if ! cmake --build "$build" --target "$@" 2>&1 | tell_progress "$log"; then
     grep -E -A 3 'error|FAILED' "$log" | head -n 30 >&2 || true
     fail "The build failed. The whole log is in $log"
   fi

@@ -19,7 +19,7 @@ for host in pymeshlab 2025 2020; do
     fail "The plugin for $host was not built; the messages above say which variable to set."
 done
 ensure_plugin
-ensure_venv pytest pytest-xdist numpy scipy Pillow ezdxf plyfile matplotlib ipykernel nbclient clang-format==14.0.6
+ensure_venv pytest pytest-xdist numpy scipy Pillow ezdxf plyfile matplotlib ipykernel nbclient cffconvert clang-format==14.0.6
 
 failed=()
 step() {

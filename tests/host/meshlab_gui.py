@@ -53,14 +53,14 @@ class MeshlabGui:
         self.choose(name)
         return self.session.wait_for_window(name)
 
-    def choose(self, name):
-        """Chooses what the search box finds first: a filter, or an entry of the menus Edit and Render."""
+    def choose(self, name, line=1):
+        """Chooses what the search box finds first (or in another line): a filter, or an entry of the menus Edit and Render."""
         self.session.xdotool('windowactivate', '--sync', self.main_window())
         self.session.keys('ctrl+f')
         time.sleep(0.5)
         self.session.write(name)
         time.sleep(1)
-        self.session.keys('Down', 'Return')
+        self.session.keys(*['Down'] * line, 'Return')
 
     def apply(self, name, seconds=240, typed=None, saved_as=None, chosen=None, ticked=()):
         """Applies a filter, waits until MeshLab says it is done, and takes the filter's dialog off the screen. Parameters

@@ -4,16 +4,23 @@ import shutil
 
 import pytest
 
+from cases import ROOT
 from forky import inside
+from gui_round import apply_all
 from meshlab_gui import MeshlabGui
+
+
+def opened(screen, forky, forky_home, mesh, **options):
+    """MeshLab 2025.07 with the mesh."""
+    shutil.copy(mesh, forky_home)
+    at_home = '/' + str(forky_home.relative_to(forky))
+    return MeshlabGui(screen, inside(forky, 'meshlab'), f'{at_home}/{mesh.name}',
+                      env={'HOME': at_home, 'XDG_RUNTIME_DIR': at_home}, **options)
 
 
 @pytest.mark.parametrize('name', ['D-Charts: Texture Atlas', 'D-Charts: Pattern'])
 def test_filter_colors_the_charts(screen, forky, forky_home, large_plush, screenshots, name):
-    shutil.copy(large_plush, forky_home / 'plush.ply')
-    at_home = '/' + str(forky_home.relative_to(forky))
-    gui = MeshlabGui(screen, inside(forky, 'meshlab'), f'{at_home}/plush.ply',
-                     env={'HOME': at_home, 'XDG_RUNTIME_DIR': at_home})
+    gui = opened(screen, forky, forky_home, large_plush)
     try:
         # Of a pattern's layer only a part is in view.
         least = gui.colors() + (1 if name.endswith('Pattern') else 3)
@@ -26,3 +33,8 @@ def test_filter_colors_the_charts(screen, forky, forky_home, large_plush, screen
         assert gui.colors() >= least, 'no coloured charts on the screen'
     finally:
         gui.close()
+
+
+def test_all_filters_and_what_they_show(screen, forky, forky_home, screenshots):
+    gui = opened(screen, forky, forky_home, ROOT / 'meshes' / 'cad_part.ply', first_field=3)
+    apply_all(gui, lambda name: screenshots / f'2025 window {name}.png', uv_line=2)

@@ -2,9 +2,11 @@
 """scripts/install-meshlab.sh: what is installed is found, a second run changes nothing, and it can be undone."""
 import os
 import pathlib
+import subprocess
 
 import pytest
 
+from cases import ROOT
 from forky import inside
 from hosts import Meshlab2020, NotHere, install
 
@@ -116,3 +118,14 @@ def test_debians_2025_package(no_other, forky, tmp_path):
 def test_unknown_option():
     run = install('--unknown')
     assert run.returncode == 2 and 'usage' in run.stderr
+
+
+@pytest.mark.parametrize('code', [0, 3])
+def test_a_build_says_how_far_it_is_and_whether_it_failed(tmp_path, code):
+    log = tmp_path / 'build.log'
+    build = f'for i in $(seq 1 40); do echo "[$i/40] Building"; done; echo done; (exit {code})'
+    run = subprocess.run(['bash', '-euo', 'pipefail', '-c', f'source {ROOT}/scripts/setup.sh; {{ {build}; }} | tell_progress {log}'],
+                         capture_output=True, text=True, timeout=60)
+    assert run.returncode == code
+    assert run.stderr.split() == [word for k in range(1, 11) for word in (f'{k}0', '%')]
+    assert len(log.read_text().splitlines()) == 41

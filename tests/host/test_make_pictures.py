@@ -13,6 +13,14 @@ SCRIPT = ROOT / 'scripts' / 'make_pictures.py'
 IMAGES = ROOT / 'docs' / 'images'
 
 
+def alike(picture, other):
+    """Not byte for byte: another version of Pillow may choose other colours for the palette."""
+    if picture.size != other.size:
+        return False
+    first, second = (np.asarray(p.convert('L'), float) for p in (picture, other))
+    return (np.abs(first - second) > 40).mean() < 0.002
+
+
 def run(*words):
     done = subprocess.run([sys.executable, SCRIPT, *words], capture_output=True, text=True, timeout=600)
     assert 'Traceback' not in done.stderr, done.stderr
@@ -20,13 +28,14 @@ def run(*words):
 
 
 def test_it_makes_a_picture_of_a_mesh_and_of_a_pattern(tmp_path):
-    names = ('gallery_cylinder', 'pattern_cylinder_paper')
+    names = ('gallery_cylinder', 'pattern_cylinder_paper', 'pattern_torus_fabric')
     done = run(tmp_path / 'pictures', '--only', *names)
     assert done.returncode == 0, done.stderr
     assert [re.search(r'(\w+)\.png: \d+ KB', line).group(1) for line in done.stdout.splitlines()] == list(names)
     for name in names:
         picture, shipped = Image.open(tmp_path / 'pictures' / f'{name}.png'), Image.open(IMAGES / f'{name}.png')
-        assert np.asarray(picture.convert('L')).std() > 8 and picture.width == shipped.width
+        assert np.asarray(picture.convert('L')).std() > 8
+        assert alike(picture, shipped), f'{name}.png is stale: python scripts/make_pictures.py'
 
 
 def test_it_makes_those_of_the_window_from_screenshots(tmp_path):

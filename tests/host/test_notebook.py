@@ -31,6 +31,24 @@ def pictures(notebook):
     return [base64.b64decode(o.data["image/png"]) for o in outputs if "image/png" in o.get("data", {})]
 
 
+def texts(notebook):
+    """What cells print or give, but for pictures."""
+    outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
+    return [o.get("text") or o["data"]["text/plain"] for o in outputs if "image/png" not in o.get("data", {})]
+
+
+def test_the_shipped_one_is_current(executed):
+    """Else: python scripts/make_pictures.py --notebook"""
+    shipped = nbformat.read(ROOT / "examples" / "dcharts.ipynb", 4)
+    assert texts(shipped) == texts(executed[0])
+    for k, pair in enumerate(zip(pictures(shipped), pictures(executed[0]))):
+        there, here = (Image.open(io.BytesIO(png)).convert("L") for png in pair)
+        assert there.size == here.size, k
+        # Shades are dithered in the shipped ones.
+        there, here = (np.asarray(p.reduce(4), float) for p in (there, here))
+        assert (np.abs(there - here) > 12).mean() < 0.002, k
+
+
 def test_it_runs_and_every_picture_shows_something(executed):
     notebook, _ = executed
     shown = pictures(notebook)
@@ -49,7 +67,8 @@ def test_it_writes_a_textured_model_and_patterns(executed):
     _, folder = executed
     assert "bear.png" in (folder / "bear.obj.mtl").read_text()
     assert np.asarray(Image.open(folder / "bear.png").convert("RGB")).std() > 10
-    assert (folder / "cylinder.pdf").read_bytes().startswith(b"%PDF")
+    for pattern in ("bear.pdf", "cylinder.pdf"):
+        assert (folder / pattern).read_bytes().startswith(b"%PDF")
     assert (folder / "bear.svg").read_text().count('class="piece"') >= 4
 
 

@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 from atlas_check import EVALUATOR, SHARED, evaluate, flaws
-from cases import (BOOLEANS, CHOICES, FILES, FILTERS, OUT_OF_RANGE, PYTHON_NAMES, REFUSED_MESHES, STAGES, is_sentence, shipped_meshes)
+from cases import (BOOLEANS, CHOICES, EXAMPLES, FILES, FILTERS, OUT_OF_RANGE, PYTHON_NAMES, REFUSED_MESHES, STAGES, is_sentence,
+                   shipped_meshes)
+from mlx import read_script
 from paint import paint
 
 pymeshlab = pytest.importorskip('pymeshlab')
@@ -380,3 +382,20 @@ for i in range(30):
 """
     run = subprocess.run([sys.executable, '-c', code, str(plush)], capture_output=True, text=True, timeout=300)
     assert run.returncode == 0, run.stderr
+
+
+@pytest.mark.parametrize('script', sorted(path.name for path in EXAMPLES.glob('*.mlx')))
+def test_shipped_scripts_run_as_they_are(script, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # pattern.mlx writes a file
+    mesh, by_name = EXAMPLES.parent / 'meshes' / 'cad_part.ply', tmp_path / 'by_name'
+    ms = load(mesh)
+    ms.load_filter_script(str(EXAMPLES / script))
+    ms.apply_filter_script()
+    files = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    assert list(files) == (['pattern.pdf'] if script == 'pattern.mlx' else [])
+    by_name.mkdir()
+    monkeypatch.chdir(by_name)
+    other = load(mesh)
+    for name, values in read_script(EXAMPLES / script):
+        other.apply_filter(name, **values)
+    assert state(ms) == state(other) and files == {path.name: path.read_bytes() for path in by_name.iterdir()}
