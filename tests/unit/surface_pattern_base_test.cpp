@@ -125,6 +125,16 @@ TEST(PatternBaseMesh, ASymmetricModelBecomesExactlySo) {
   }
 }
 
+// Its groove is as narrow as an edge, and its triangles are no mirror images.
+TEST(PatternBaseMesh, ABishopBecomesSymmetricOfEitherMaterial) {
+  const SurfaceData bishop = shapes::Bishop();
+  for (const PatternMaterial material : {PatternMaterial::kFabric, PatternMaterial::kPaper}) {
+    BaseMesh base(bishop);
+    base.MakeSymmetric(material);
+    EXPECT_TRUE(base.Halves().IsSymmetric());
+  }
+}
+
 TEST(PatternBaseMesh, PaperKeepsNearerToTheModelThanFabric) {
   for (const double height : {0.0, 1e-3, 0.02}) {
     SurfaceData model = shapes::Torus(16);  // 2.8 wide, edges of 0.15
@@ -142,10 +152,12 @@ TEST(PatternBaseMesh, PaperKeepsNearerToTheModelThanFabric) {
 TEST(PatternBaseMesh, AFeatureOnOneSideIsKept) {
   for (const double height : {0.02, 0.05, 0.1}) {
     const SurfaceData model = WithPocket(shapes::Plush(40), height);
-    BaseMesh base(model);
-    base.MakeSymmetric(PatternMaterial::kFabric);
-    EXPECT_FALSE(base.Halves().IsSymmetric()) << height;
-    EXPECT_EQ(&base.Mesh(), &model);
+    for (const PatternMaterial material : {PatternMaterial::kFabric, PatternMaterial::kPaper}) {
+      BaseMesh base(model);
+      base.MakeSymmetric(material);
+      EXPECT_FALSE(base.Halves().IsSymmetric()) << height;
+      EXPECT_EQ(&base.Mesh(), &model);
+    }
   }
 }
 

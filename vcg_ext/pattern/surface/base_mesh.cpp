@@ -27,23 +27,22 @@ void BaseMesh::Coarsen(PatternMaterial material) {
 
 // What is smaller than part of an edge is an accident of the triangles, at few vertices up to half of one: a
 // narrow groove goes from edge to edge. Noise is larger at some vertices than it is on average. Paper keeps
-// nearer to the model than fabric does.
+// nearer to the model than fabric does, but for a few more vertices.
 ShapeLimits BaseMesh::LimitsOfSymmetry(PatternMaterial material) const {
-  const bool is_paper = material == PatternMaterial::kPaper;
   constexpr double kOfSize = 2e-3, kOfEdge = 0.25, kMostOfSize = 6e-3, kArea = 1e-3;
-  constexpr double kRare = 2e-3, kFarther = 2;  // times as far
+  constexpr double kRare = 2e-3, kRareOfPaper = 5e-3, kFarther = 2;  // times as far
   constexpr double kOfNoise = 5, kAreaOfNoise = 0.1;
   const double size = LongestSide(*mesh_), noise = VertexNoise(Surface());
   double edge = 0;
   for (int h = 0; h < Surface().HalfEdgeCount(); ++h) edge += Surface().Length(h) / Surface().HalfEdgeCount();
   edge *= DataCoordinates(*mesh_, Surface()).Scale();
-  const double of_size = kOfSize * size,
-               accident = std::max(of_size, std::min(kOfEdge * edge, kMostOfSize * size));
+  const double of_size = kOfSize * size, of_noise = kOfNoise * noise * edge;
+  const double accident = std::max(of_size, std::min(kOfEdge * edge, kMostOfSize * size));
+  const bool is_paper = material == PatternMaterial::kPaper;
   ShapeLimits limits;
-  const double of_noise = kOfNoise * noise * edge;
   limits.distance = (is_paper ? of_size : accident) + of_noise;
   limits.area = kArea + kAreaOfNoise * noise;
-  limits.rare = kRare;
+  limits.rare = is_paper ? kRareOfPaper : kRare;
   limits.farthest = kFarther * accident + of_noise;
   return limits;
 }

@@ -19,7 +19,6 @@ class FaceTree {
   struct Nearest {
     int face = -1;
     double distance = 0;
-    Eigen::Vector3d point{0, 0, 0};  ///< of the face
   };
 
   Nearest Find(const Eigen::Vector3d& p) const;
