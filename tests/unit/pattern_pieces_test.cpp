@@ -179,6 +179,32 @@ TEST(PatternTabs, ScissorsGetBetweenThem) {
   }
 }
 
+TEST(PatternTabs, OfManyTeethSomeHaveOne) {
+  // Two pieces with a straight side each, 90 mm long, and one of 60 right-angled teeth between them.
+  constexpr int kEdges = 60;
+  const double leg = 90 / (kEdges * std::sqrt(0.5));  // 2.1 mm
+  std::vector<Polyline> outlines(2);
+  for (int k = 0; k <= kEdges; ++k) {
+    const Point2 tooth(k * leg * std::sqrt(0.5), k % 2 * leg * std::sqrt(0.5));
+    outlines[0].push_back(Point2(90, 0) + Point2(-tooth.x(), tooth.y()));
+    outlines[1].push_back({tooth.x(), -tooth.y()});
+  }
+  outlines[0].insert(outlines[0].end(), {{0, -40}, {90, -40}});
+  outlines[1].insert(outlines[1].end(), {{90, -40}, {0, -40}});
+  std::reverse(outlines[1].begin(), outlines[1].end());
+  Pattern pattern = PatternOfOutlines(outlines);
+  // All teeth are one seam; of the other side nothing but its room matters.
+  Seam seam = pattern.seams[0];
+  seam.sides[0].edges = kEdges;
+  seam.sides.push_back({1, 0, 2, kEdges, true, seam.sides[0].length});
+  pattern.seams = {seam};
+  AddTabs(6, {}, pattern);
+  size_t tabs = 0;
+  for (const Piece& piece : pattern.pieces) tabs += piece.tabs.size();
+  EXPECT_GE(tabs, 4u);
+  EXPECT_LE(tabs, 12u);
+}
+
 // A roof of two halves, each 50 by 100 mm, that bends by `degrees` along x = 50.
 FlatCharts Roof(double degrees) {
   SurfaceData mesh = shapes::Grid(10, 10);

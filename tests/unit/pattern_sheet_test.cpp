@@ -14,6 +14,7 @@
 #include "pattern/drawing/label_space.h"
 #include "pattern/drawing/pdf_pages.h"
 #include "pattern/drawing/sheet.h"
+#include "pattern_by_hand.h"
 #include "shapes.h"
 #include "planar/polygon.h"
 
@@ -123,6 +124,42 @@ TEST_P(PatternSheet, EveryDrawnPieceIsOnOnePageOrTiledAndInTheLayer) {
     EXPECT_EQ(std::count(layer.piece.begin(), layer.piece.end(), piece.id),
               static_cast<std::ptrdiff_t>(piece.net.triangles.size()));
   }
+}
+
+// How many texts and leaders the first piece gets for its folds: `rows` lines of `length` mm, 1 mm apart.
+std::pair<std::size_t, std::size_t> TextsAndLeadersForFolds(int rows, double length, double angle_step) {
+  Pattern pattern = Cushions({60}, 0);
+  pattern.material = PatternMaterial::kPaper;
+  const SurfaceData mesh = shapes::Cube(1);
+  const auto count = [&] {
+    Draft draft{pattern, mesh, "test"};
+    for (const Group& group : SheetOf(draft).groups) {
+      if (!group.is_piece) continue;
+      std::size_t leaders = 0;
+      for (const Line& line : group.lines) leaders += line.mark == Mark::kLeader;
+      return std::make_pair(group.texts.size(), leaders);
+    }
+    return std::make_pair(std::size_t{0}, std::size_t{0});
+  };
+  const auto before = count();
+  for (int k = 0; k < rows; ++k) {
+    Fold fold;
+    fold.line = {{-length / 2, 20.0 + k}, {length / 2, 20.0 + k}};
+    fold.angle_degrees = 30 + k * angle_step;
+    pattern.pieces[0].folds.push_back(fold);
+  }
+  const auto after = count();
+  return {after.first - before.first, after.second - before.second};
+}
+
+TEST(PatternLabels, FoldsOfAboutOneAngleAreLabelledOnce) {
+  EXPECT_EQ(TextsAndLeadersForFolds(9, 20, 0.3).first, 1u);
+  EXPECT_GT(TextsAndLeadersForFolds(9, 20, 4).first, 2u);
+}
+
+TEST(PatternLabels, ShortFoldsGetNoLeaders) {
+  EXPECT_EQ(TextsAndLeadersForFolds(9, 6, 4).second, 0u);
+  EXPECT_GT(TextsAndLeadersForFolds(9, 30, 4).second, 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(

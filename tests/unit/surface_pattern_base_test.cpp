@@ -125,25 +125,39 @@ TEST(PatternBaseMesh, ASymmetricModelBecomesExactlySo) {
   }
 }
 
-TEST(PatternBaseMesh, PaperIsSymmetricExactlyOrNotAtAll) {
-  for (const double height : {0.0, 1e-4}) {
-    SurfaceData model = shapes::Torus(16);
+// Its groove is as narrow as an edge, and its triangles are no mirror images.
+TEST(PatternBaseMesh, ABishopBecomesSymmetricOfEitherMaterial) {
+  const SurfaceData bishop = shapes::Bishop();
+  for (const PatternMaterial material : {PatternMaterial::kFabric, PatternMaterial::kPaper}) {
+    BaseMesh base(bishop);
+    base.MakeSymmetric(material);
+    EXPECT_TRUE(base.Halves().IsSymmetric());
+  }
+}
+
+TEST(PatternBaseMesh, PaperKeepsNearerToTheModelThanFabric) {
+  for (const double height : {0.0, 1e-3, 0.02}) {
+    SurfaceData model = shapes::Torus(16);  // 2.8 wide, edges of 0.15
     for (auto& v : model.vertices)
       if (v[0] > 1 && v[1] > 0 && v[2] > 0.1) v[2] += height;
-    BaseMesh base(model);
-    ASSERT_TRUE(FindMirrorPlane(base.Surface()).has_value());
-    base.MakeSymmetric(PatternMaterial::kPaper);
-    EXPECT_EQ(base.Halves().IsSymmetric(), height == 0);
+    ASSERT_TRUE(FindMirrorPlane(*TestSurface(model)).has_value());
+    BaseMesh paper(model), fabric(model);
+    paper.MakeSymmetric(PatternMaterial::kPaper);
+    fabric.MakeSymmetric(PatternMaterial::kFabric);
+    EXPECT_EQ(paper.Halves().IsSymmetric(), height < 0.01) << height;
+    if (height < 0.01) EXPECT_TRUE(fabric.Halves().IsSymmetric()) << height;
   }
 }
 
 TEST(PatternBaseMesh, AFeatureOnOneSideIsKept) {
   for (const double height : {0.02, 0.05, 0.1}) {
     const SurfaceData model = WithPocket(shapes::Plush(40), height);
-    BaseMesh base(model);
-    base.MakeSymmetric(PatternMaterial::kFabric);
-    EXPECT_FALSE(base.Halves().IsSymmetric()) << height;
-    EXPECT_EQ(&base.Mesh(), &model);
+    for (const PatternMaterial material : {PatternMaterial::kFabric, PatternMaterial::kPaper}) {
+      BaseMesh base(model);
+      base.MakeSymmetric(material);
+      EXPECT_FALSE(base.Halves().IsSymmetric()) << height;
+      EXPECT_EQ(&base.Mesh(), &model);
+    }
   }
 }
 

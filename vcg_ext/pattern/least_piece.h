@@ -12,4 +12,9 @@ inline double LeastPieceArea(const Params& params) {
   return width * width;
 }
 
+/// So is a narrower one (mm), however long.
+inline double LeastPieceWidth(const Params& params) {
+  return params.material == PatternMaterial::kFabric ? params.seam_allowance : params.tab_width / 2;
+}
+
 }  // namespace dcharts

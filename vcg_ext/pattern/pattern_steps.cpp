@@ -82,7 +82,8 @@ Pattern SimplifiedPieces(const FlatCharts& charts, const SeamGraph& graph, const
 void WarnOfSmallPieces(const Params& params, Pattern& pattern) {
   std::vector<int> small;
   for (const Piece& piece : pattern.pieces)
-    if (piece.area < LeastPieceArea(params)) small.push_back(piece.id);
+    if (piece.area < LeastPieceArea(params) || 2 * piece.label_radius < LeastPieceWidth(params))
+      small.push_back(piece.id);
   if (small.empty()) return;
   const bool is_fabric = params.material == PatternMaterial::kFabric;
   pattern.warnings.push_back(std::string("Too small to ") + (is_fabric ? "sew" : "glue") +

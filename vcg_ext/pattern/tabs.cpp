@@ -150,8 +150,16 @@ void AddTabs(double width, const std::function<void()>& poll, Pattern& pattern) 
     if (seam.IsBorder() || !(width > 0)) continue;
     const int sides = static_cast<int>(seam.sides.size());
     bool has_tab = false, lacks_tab = false;
+    // Where a seam has teeth a tab here and there holds it: not on every tooth.
+    constexpr double kTooth = 0.8, kBetweenTeeth = 2;  // tab widths
+    double bare = kBetweenTeeth * width;               // length without a tab up to here
     for (const Stretch& stretch : StretchesOf(pattern, seam, width)) {
       if (poll) poll();
+      const double length = LengthOf(pattern, seam, stretch);
+      if (length < kTooth * width && bare + length < kBetweenTeeth * width) {
+        bare += length;
+        continue;
+      }
       bool placed = false;
       // As wide as asked for on any side, rather than on the one whose turn it is.
       for (const double share : {1.0, 0.7, 0.5, 0.3})
@@ -159,8 +167,9 @@ void AddTabs(double width, const std::function<void()>& poll, Pattern& pattern) 
           for (const double slant : {1.0, 2.0})
             placed = placed || placer.Place(seam, stretch, (turn + k) % sides, share * width, slant);
       ++turn;
+      bare = placed ? 0 : bare + length;
       has_tab = has_tab || placed;
-      lacks_tab = lacks_tab || (!placed && LengthOf(pattern, seam, stretch) >= kShortestTab);
+      lacks_tab = lacks_tab || (!placed && length >= kShortestTab);
     }
     if (lacks_tab || (!has_tab && seam.length >= kShortestTab)) ++missing;
   }

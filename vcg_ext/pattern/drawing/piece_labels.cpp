@@ -267,8 +267,8 @@ class Labeller {
     const Polyline line = placed_.Placed(fold.line);
     const std::string text = NumberText(fold.angle_degrees, 0) + "\xC2\xB0";
     const double length = LengthOf(line);
-    if (IsAsOneNear(fold, text, AtLength(line, length / 2).first)) return;
-    labelled_folds_.push_back({fold.mountain, text, line});
+    if (IsAsOneNear(fold, AtLength(line, length / 2).first)) return;
+    labelled_folds_.push_back({fold.mountain, fold.angle_degrees, line});
     Label label{{{text, {}, 1}}, 2.2};
     for (double scale : Scales(label, 0.85)) {
       const double height = label.BoxAt({0, 0}, scale).half.y();
@@ -280,14 +280,18 @@ class Labeller {
             if (PutIfFree(label, at + side * (height + away) * Point2(-along.y(), along.x()), scale)) return;
           }
     }
-    PutWithLeader(label, {AtLength(line, length / 2).first, AtLength(line, length / 3).first});
+    // A thicket of leaders would hide what the short folds of a round part are.
+    constexpr double kWorthALeader = 12;  // mm
+    if (length >= kWorthALeader)
+      PutWithLeader(label, {AtLength(line, length / 2).first, AtLength(line, length / 3).first});
   }
 
-  // A round part has many folds of one angle side by side: a number here and there says it.
-  bool IsAsOneNear(const Fold& fold, const std::string& text, const Point2& middle) const {
-    constexpr double kNear = 15;  // mm
+  // A round part has many folds of about one angle side by side: a number here and there says it.
+  bool IsAsOneNear(const Fold& fold, const Point2& middle) const {
+    constexpr double kNear = 15, kAlike = 3;  // mm; degrees: nobody folds better
     return std::any_of(labelled_folds_.begin(), labelled_folds_.end(), [&](const LabelledFold& other) {
-      if (other.mountain != fold.mountain || other.text != text) return false;
+      if (other.mountain != fold.mountain || std::abs(other.degrees - fold.angle_degrees) > kAlike)
+        return false;
       for (std::size_t k = 0; k + 1 < other.line.size(); ++k)
         if (DistanceToSegment(middle, other.line[k], other.line[k + 1]) < kNear) return true;
       return false;
@@ -296,7 +300,7 @@ class Labeller {
 
   struct LabelledFold {
     bool mountain = true;
-    std::string text;
+    double degrees = 0;
     Polyline line;
   };
 

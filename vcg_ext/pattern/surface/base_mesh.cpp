@@ -25,35 +25,33 @@ void BaseMesh::Coarsen(PatternMaterial material) {
   if (coarse) Take(coarse_, std::move(*coarse));
 }
 
-// Of fabric, what is smaller than part of an edge is an accident of the triangles, at few vertices up to half
-// of one: a narrow groove goes from edge to edge. Noise is larger at some vertices than it is on average.
-ShapeLimits BaseMesh::LimitsForFabric(double size) {
+// What is smaller than part of an edge is an accident of the triangles, at few vertices up to half of one: a
+// narrow groove goes from edge to edge. Noise is larger at some vertices than it is on average. Paper keeps
+// nearer to the model than fabric does, but for a few more vertices.
+ShapeLimits BaseMesh::LimitsOfSymmetry(PatternMaterial material) const {
   constexpr double kOfSize = 2e-3, kOfEdge = 0.25, kMostOfSize = 6e-3, kArea = 1e-3;
-  constexpr double kRare = 2e-3, kFarther = 2;  // times as far
+  constexpr double kRare = 2e-3, kRareOfPaper = 5e-3, kFarther = 2;  // times as far
   constexpr double kOfNoise = 5, kAreaOfNoise = 0.1;
+  const double size = LongestSide(*mesh_), noise = VertexNoise(Surface());
   double edge = 0;
   for (int h = 0; h < Surface().HalfEdgeCount(); ++h) edge += Surface().Length(h) / Surface().HalfEdgeCount();
   edge *= DataCoordinates(*mesh_, Surface()).Scale();
-  const double noise = VertexNoise(Surface());
+  const double of_size = kOfSize * size, of_noise = kOfNoise * noise * edge;
+  const double accident = std::max(of_size, std::min(kOfEdge * edge, kMostOfSize * size));
+  const bool is_paper = material == PatternMaterial::kPaper;
   ShapeLimits limits;
-  limits.distance =
-      std::max(kOfSize * size, std::min(kOfEdge * edge, kMostOfSize * size)) + kOfNoise * noise * edge;
+  limits.distance = (is_paper ? of_size : accident) + of_noise;
   limits.area = kArea + kAreaOfNoise * noise;
-  limits.rare = kRare;
-  limits.farthest = kFarther * limits.distance;
+  limits.rare = is_paper ? kRareOfPaper : kRare;
+  limits.farthest = kFarther * accident + of_noise;
   return limits;
 }
 
-// Paper is to keep the model as it is, and its pieces are too sensitive for mirrored borders only.
 void BaseMesh::MakeSymmetric(PatternMaterial material) {
   const auto mirror = FindMirrorPlane(Surface());
   if (!mirror) return;
   SymmetricMesh symmetric = MakeSymmetricMesh(*mesh_, Surface(), *mirror);
-  const double size = LongestSide(*mesh_);
-  constexpr double kRounding = 1e-6;
-  const ShapeLimits limits =
-      material == PatternMaterial::kPaper ? ShapeLimits{kRounding * size, kRounding} : LimitsForFabric(size);
-  if (!AreSameShape(*mesh_, symmetric.mesh, limits)) return;
+  if (!AreSameShape(*mesh_, symmetric.mesh, LimitsOfSymmetry(material))) return;
   Take(symmetric_, std::move(symmetric.mesh));
   halves_ = symmetric.halves;
 }

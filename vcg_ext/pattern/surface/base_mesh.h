@@ -26,7 +26,7 @@ class BaseMesh {
 
   void Coarsen(PatternMaterial material);  ///< see CoarseMesh
   /// Where there is a plane of symmetry, and it changes nothing that matters for the material, one half
-  /// becomes the exact mirror image of the other. Paper is symmetric exactly or not at all.
+  /// becomes the exact mirror image of the other.
   void MakeSymmetric(PatternMaterial material);
 
   /// Sets piece_of_face, and has all faces in the pattern be those of the user's mesh.
@@ -34,7 +34,7 @@ class BaseMesh {
 
  private:
   void Take(SurfaceData& here, SurfaceData mesh);
-  ShapeLimits LimitsForFabric(double size);
+  ShapeLimits LimitsOfSymmetry(PatternMaterial material) const;
 
   const SurfaceData& users_;
   SurfaceData coarse_, symmetric_;

@@ -19,11 +19,17 @@ int ChartsForPattern::JoinSmallCharts(ChartIds& ids, SeamMask& seams) {
   const double least = std::max(UselessArea(), kSmallShare * surface_.TotalArea());
   constexpr int kMostCharts = 100, kMostNeighbours = 3;  // bound the time
   const auto charts = FacesOfCharts(ids);
-  std::vector<double> area(charts.size(), 0);
+  std::vector<double> area(charts.size(), 0), around(charts.size(), 0);
   for (int f = 0; f < surface_.FaceCount(); ++f) area[ids[f]] += surface_.Area(f);
+  for (int h = 0; h < surface_.HalfEdgeCount(); ++h) {
+    const int g = surface_.Neighbour(h);
+    if (g < 0 || ids[g] != ids[h / 3]) around[ids[h / 3]] += surface_.Length(h);
+  }
   std::vector<int> small;
-  for (int c = 0; c < static_cast<int>(charts.size()); ++c)
-    if (area[c] < least) small.push_back(c);
+  for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
+    const bool is_narrow = 2 * area[c] < around[c] * LeastPieceWidth(params_) / to_mm_;  // a strip, about
+    if (area[c] < least || is_narrow) small.push_back(c);
+  }
   std::stable_sort(small.begin(), small.end(), [&](int a, int b) { return area[a] < area[b]; });
   if (small.size() > kMostCharts) small.resize(kMostCharts);
   int joined = 0;
