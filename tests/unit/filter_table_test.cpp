@@ -109,6 +109,19 @@ TEST(FilterTable, FiltersHaveDifferentNames) {
   EXPECT_EQ(python_names.size(), AllFilters().size());
 }
 
+// Scripts have these names: they never change.
+TEST(FilterTable, ThePublicNames) {
+  std::set<std::string> names;
+  for (const FilterSpec& filter : AllFilters())
+    names.insert(std::string(filter.name) + ", " + filter.python_name);
+  EXPECT_EQ(names, (std::set<std::string>{
+                       "D-Charts: Segment, dcharts_segment", "D-Charts: Fill, dcharts_fill",
+                       "D-Charts: Straighten, dcharts_straighten", "D-Charts: Merge, dcharts_merge",
+                       "D-Charts: Cut, dcharts_cut", "D-Charts: Parameterize, dcharts_parameterize",
+                       "D-Charts: Texture Atlas, dcharts_texture_atlas", "D-Charts: Pattern, dcharts_pattern",
+                       "D-Charts: Measure, dcharts_measure"}));
+}
+
 TEST(FilterTable, HelpSaysWhatItDoesAndNamesThePaperAndIsShort) {
   for (const FilterSpec& filter : AllFilters()) {
     const std::string help = HelpText(filter);

@@ -10,6 +10,7 @@
 #include <string>
 
 #ifndef _WIN32
+#include <cerrno>
 #include <climits>
 #include <csignal>
 
@@ -21,6 +22,18 @@
 #include <gtest/gtest.h>
 
 #include "common/errors.h"
+
+#ifndef _WIN32
+namespace {
+bool g_disk_is_full = false;
+}
+
+// In place of the C library's: a disk can turn out to be full only when what was written comes to it.
+extern "C" int fsync(int) {
+  errno = ENOSPC;
+  return g_disk_is_full ? -1 : 0;
+}
+#endif
 
 namespace dcharts {
 namespace {
@@ -162,6 +175,14 @@ TEST_F(Saving, AFileThatDoesNotFitLeavesTheOldOne) {
   std::signal(SIGXFSZ, handler);
   EXPECT_NE(sentence.find("space"), std::string::npos) << sentence;
   EXPECT_EQ(All(), (Files{{"a.svg", "old"}}));
+}
+
+TEST_F(Saving, AFileThatDoesNotReachTheDiskLeavesTheOldOne) {
+  Put("a.svg", "old");
+  g_disk_is_full = true;
+  const std::string sentence = Refusal(At("a.svg"));
+  g_disk_is_full = false;
+  EXPECT_NE(sentence.find("space"), std::string::npos) << sentence;
 }
 
 #endif

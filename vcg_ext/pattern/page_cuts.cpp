@@ -25,7 +25,10 @@ class Turns {
  public:
   static constexpr int kMostPages = 1000000;
 
-  explicit Turns(const Polyline& points) : hull_(ConvexHull(points)) {
+  explicit Turns(const Polyline& points) : Turns(ConvexHull(points), IsHull()) {}
+
+  struct IsHull {};
+  Turns(Polyline hull, IsHull) : hull_(std::move(hull)) {
     turned_.reserve(kTurns * hull_.size());
     for (int t = 0; t < kTurns; ++t) {
       Point2 low = Point2::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -55,9 +58,9 @@ class Turns {
   }
 
   /// Of no turn there are fewer pages: those that have the area of the hull together.
-  int LeastPages(const Point2& page) const {
+  static int LeastPages(const Polyline& hull, const Point2& page) {
     constexpr double kRounding = 1e-9;
-    const double pages = std::ceil((1 - kRounding) * SignedArea(hull_) / page.prod());
+    const double pages = std::ceil((1 - kRounding) * SignedArea(hull) / page.prod());
     return static_cast<int>(std::clamp(pages, 1.0, static_cast<double>(kMostPages)));
   }
 
@@ -173,14 +176,14 @@ class CutFinder {
     double cost = std::numeric_limits<double>::infinity();
   };
 
-  Cut Best() const {
-    constexpr int kDirections = 24, kPlaces = 24;
+  /// `count`: of directions, and of places for each.
+  Cut Best(int count) const {
     const Polyline points = Points();
     const double turn = Turns(points).LongSide();
     Cut best;
-    for (int d = 0; d < kDirections; ++d) {
+    for (int d = 0; d < count; ++d) {
       PlaneLine line;
-      const double angle = turn + kPi * d / kDirections;
+      const double angle = turn + kPi * d / count;
       line.direction = {std::cos(angle), std::sin(angle)};
       double low = std::numeric_limits<double>::infinity(), high = -low;
       for (const Point2& p : points) {
@@ -188,7 +191,7 @@ class CutFinder {
         high = std::max(high, line.Off(p));
       }
       std::vector<double> places;
-      for (int k = 1; k < kPlaces; ++k) places.push_back(low + (high - low) * k / kPlaces);
+      for (int k = 1; k < count; ++k) places.push_back(low + (high - low) * k / count);
       // As far from either end as fits onto pages.
       constexpr double kLess = 0.999;
       constexpr int kMostPages = 6;
@@ -271,15 +274,24 @@ class CutFinder {
   // not, and that shows long before the pages of both parts are counted.
   double CostOfParts(double seam, double ends, const std::array<Polyline, 2>& parts, double bound) const {
     constexpr double kNone = std::numeric_limits<double>::infinity();
-    const std::array<Turns, 2> turns = {Turns(parts[0]), Turns(parts[1])};
+    std::array<Polyline, 2> hulls;
+    std::array<int, 2> least{};
     std::array<double, 2> sliver{}, cost{};
+    const auto total = [&] { return seam + cost[0] + cost[1] + ends; };
+    for (const int k : {0, 1}) {
+      hulls[k] = ConvexHull(parts[k]);
+      least[k] = Turns::LeastPages(hulls[k], page_);
+      cost[k] = CostOfPages(least[k]);
+    }
+    if (total() >= bound) return kNone;
+    const std::array<Turns, 2> turns = {Turns(std::move(hulls[0]), Turns::IsHull()),
+                                        Turns(std::move(hulls[1]), Turns::IsHull())};
     for (const int k : {0, 1}) {
       const double width = turns[k].Width();
       if (width < least_width_) return kNone;
       sliver[k] = SliverOf(width);
-      cost[k] = CostOfPages(turns[k].LeastPages(page_) + sliver[k]);
+      cost[k] = CostOfPages(least[k] + sliver[k]);
     }
-    const auto total = [&] { return seam + cost[0] + cost[1] + ends; };
     for (const int k : {0, 1}) {
       const auto with = [&](int pages) {
         cost[k] = CostOfPages(pages + sliver[k]);
@@ -354,7 +366,7 @@ int PagesFor(const FlatChart& chart, const Point2& page) {
 }
 
 int CutToPages(const Point2& page, const std::function<void()>& poll, FlatCharts& charts) {
-  constexpr int kMostPages = 200, kMostCuts = 500;
+  constexpr int kMostPages = 120, kMostCuts = 500;
   double pages = 0;
   for (const FlatChart& chart : charts.charts) {
     const int own = PagesFor(chart, page);
@@ -363,11 +375,14 @@ int CutToPages(const Point2& page, const std::function<void()>& poll, FlatCharts
   if (pages > kMostPages)
     throw Error("Pieces that fit onto pages would be more than " + std::to_string(kMostPages) +
                 ". Choose a larger page or 'Tile', or a smaller size.");
+  // Of large pieces the cheapest cut is one across a corner; the more directions, the more of them, in vain.
+  constexpr int kLarge = 10;  // pages
+  const int count = pages > kLarge ? 12 : 24;
   int cuts = 0;
   for (int c = 0; c < static_cast<int>(charts.charts.size()); ++c)
     while (cuts < kMostCuts && PagesFor(charts.charts[c], page) > 1) {
       if (poll) poll();
-      const CutFinder::Cut cut = CutFinder(charts.charts[c], SeamsOf(charts).places[c], page).Best();
+      const CutFinder::Cut cut = CutFinder(charts.charts[c], SeamsOf(charts).places[c], page).Best(count);
       if (!std::isfinite(cut.cost)) break;
       CutAlong(cut.line, cut.from, cut.to, c, charts);
       ++cuts;

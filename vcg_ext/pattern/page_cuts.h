@@ -14,7 +14,7 @@ int PagesFor(const FlatChart& chart, const Point2& page);
 
 /// Parts charts that do not fit into `page` (mm) along straight lines until all do: into as few parts as a
 /// search of lines finds, across narrow places. Both sides of such a seam are equally long. Returns the
-/// number of cuts. Throws Error when they would be more than 200 parts. `poll` may throw.
+/// number of cuts. Throws Error when they would be more than 120 parts. `poll` may throw.
 int CutToPages(const Point2& page, const std::function<void()>& poll, FlatCharts& charts);
 
 }  // namespace dcharts

@@ -68,7 +68,9 @@ void PlaceOnSheet(const std::vector<Piece*>& pieces, bool rotate, double gap,
 /// Puts pieces onto pages one after the other, the largest first, each on the first page with a place.
 class Pager {
  public:
-  Pager(const Point2& printable, double gap, bool rotate) : gap_(gap), rotate_(rotate) {
+  /// `turns`: in how many directions pieces are tried.
+  Pager(const Point2& printable, double gap, bool rotate, int turns)
+      : gap_(gap), rotate_(rotate), turns_(rotate ? turns : 1) {
     constexpr double kMostCells = 400;  // along the page
     cell_ = std::max(1.0, printable.maxCoeff() / kMostCells);
     // A piece keeps half a gap to the margin as well; that much it may reach over it.
@@ -82,15 +84,18 @@ class Pager {
     const double upright = rotate_ ? UprightAngle(edges) : 0;
     const std::vector<Turn> turns = TurnsThatFit(edges, upright);
     for (size_t page = 0; !turns.empty(); ++page) {
-      if (page == boards_.size()) boards_.emplace_back(std::max(columns_, rows_) + 1);
-      int lowest = std::numeric_limits<int>::max();
+      if (page == boards_.size()) {
+        boards_.emplace_back(std::max(columns_, rows_) + 1);
+        free_.push_back(columns_ * rows_);
+      }
+      int lowest = rows_ + 1;  // the board is larger than the page: a piece may not end beyond it
       const Turn* best = nullptr;
       int best_x = 0, best_y = 0;
       for (const Turn& turn : turns) {
         const RowRuns& cells = turn.cells;
         int x = 0, y = 0;
-        if (!boards_[page].FindLowest(cells, columns_, 0, rows_ + 1, &x, &y)) continue;
-        if (y + cells.Height() >= lowest) continue;
+        if (turn.cell_count > free_[page]) continue;  // most pages are full, and searched in vain
+        if (!boards_[page].FindLowest(cells, columns_, 0, lowest, &x, &y)) continue;
         lowest = y + cells.Height();
         best = &turn;
         best_x = x;
@@ -102,6 +107,7 @@ class Pager {
       piece.on_page.offset =
           Point2(best_x * cell_, best_y * cell_) - best->corner.transpose() + Point2::Constant(kPageMargin);
       boards_[page].Take(best->cells, best_x, best_y);
+      free_[page] -= best->cell_count;
       piece.on_page.page = static_cast<int>(page);
       pages_ = std::max(pages_, static_cast<int>(page) + 1);
       return true;
@@ -118,31 +124,36 @@ class Pager {
     double angle = 0;
     Eigen::RowVector2d corner;  // of the turned outline's box
     RowRuns cells;
+    int cell_count = 0;
   };
 
   // Those at which a piece goes onto a page. Its cells are the same on all pages.
   std::vector<Turn> TurnsThatFit(const Points2& edges, double upright) const {
     std::vector<Turn> fit;
-    const int turns = rotate_ ? 16 : 1;
-    for (int t = 0; t < turns; ++t) {
+    for (int t = 0; t < turns_; ++t) {
       Turn turn;
-      turn.angle = upright + 2 * kPi * t / turns;
+      turn.angle = upright + 2 * kPi * t / turns_;
       Points2 turned = Turned(edges, turn.angle);
       turn.corner = turned.colwise().minCoeff();
       turned.rowwise() -= turn.corner;
       const Eigen::RowVector2d size = turned.colwise().maxCoeff();
       if (size.x() > columns_ * cell_ || size.y() > rows_ * cell_) continue;  // no need for its cells
       turn.cells = CoveredCells(turned / cell_, gap_ / 2 / cell_);
-      if (turn.cells.width <= columns_ && turn.cells.Height() <= rows_) fit.push_back(std::move(turn));
+      if (turn.cells.width > columns_ || turn.cells.Height() > rows_) continue;
+      for (const std::vector<Run>& row : turn.cells.rows)
+        for (const Run& run : row) turn.cell_count += run.last - run.first + 1;
+      fit.push_back(std::move(turn));
     }
     return fit;
   }
 
   double gap_;
   bool rotate_;
+  int turns_;
   double cell_ = 1;
   int columns_ = 0, rows_ = 0, pages_ = 0;
   std::vector<Board> boards_;
+  std::vector<int> free_;  // cells of each page
 };
 
 void PlaceOnPages(const std::vector<Piece*>& pieces, PageFormat page, bool rotate, double gap,
@@ -153,7 +164,8 @@ void PlaceOnPages(const std::vector<Piece*>& pieces, PageFormat page, bool rotat
   std::stable_sort(order.begin(), order.end(), [](const Piece* a, const Piece* b) {
     return SignedArea(a->cut.front()) > SignedArea(b->cut.front());
   });
-  Pager pager(PrintableSize(page), gap, rotate);
+  constexpr size_t kMany = 100;  // pieces; more would take long
+  Pager pager(PrintableSize(page), gap, rotate, order.size() > kMany ? 8 : 16);
   for (Piece* piece : order) {
     if (poll) poll();
     if (pager.Place(*piece)) continue;
