@@ -129,10 +129,16 @@ class Pager {
 
   // Those at which a piece goes onto a page. Its cells are the same on all pages.
   std::vector<Turn> TurnsThatFit(const Points2& edges, double upright) const {
+    constexpr int kMoreTurns = 72;  // for a large piece that goes onto a page askew only
+    std::vector<Turn> fit = TurnsThatFit(edges, upright, turns_);
+    return fit.empty() && rotate_ ? TurnsThatFit(edges, upright, kMoreTurns) : fit;
+  }
+
+  std::vector<Turn> TurnsThatFit(const Points2& edges, double upright, int turns) const {
     std::vector<Turn> fit;
-    for (int t = 0; t < turns_; ++t) {
+    for (int t = 0; t < turns; ++t) {
       Turn turn;
-      turn.angle = upright + 2 * kPi * t / turns_;
+      turn.angle = upright + 2 * kPi * t / turns;
       Points2 turned = Turned(edges, turn.angle);
       turn.corner = turned.colwise().minCoeff();
       turned.rowwise() -= turn.corner;
