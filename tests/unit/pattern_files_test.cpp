@@ -223,9 +223,13 @@ TEST(PatternFiles, DxfSaysOfALineWhatItBelongsTo) {
     EXPECT_NE(dxf.find(data + "0\nVERTEX\n8\n14\n"), std::string::npos) << "stitch line";
     EXPECT_NE(dxf.find(data + "1000\nmatch\n1071\n3\n0\nVERTEX\n8\n4\n"), std::string::npos) << "notch";
   }
+}
+
+TEST(PatternFiles, FoldsHaveTheirAngle) {
   Drawing fold{"fold", {100, 100}, {{"g", "g"}}};
   fold.groups[0].lines.push_back({Mark::kValley, {{0, 0}, {10, 0}}, false, -1, -1, 0, -90});
   EXPECT_NE(DxfFile(fold).find("1001\nDCHARTS\n1000\nangle\n1040\n-90\n"), std::string::npos);
+  EXPECT_NE(SvgFile(fold).find(" data-angle=\"-90\""), std::string::npos);
 }
 
 TEST(PatternFiles, PdfIsTheSameEveryTime) {
