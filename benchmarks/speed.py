@@ -26,6 +26,7 @@ from common import MODELS_DIR, Bounds
 import numpy as np
 import pymeshlab
 
+from meshes import noisy, save
 from reference import GOALS, MODELS
 
 THREADS = (1, 2)
@@ -77,8 +78,8 @@ def child_xatlas(mesh, _out, _parameters):
 
 def run(kind, mesh, threads=1, out="", **parameters):
     """A process of its own: memory and threads are those of one run."""
-    words = [sys.executable, __file__, "--child", kind, str(mesh), str(out), json.dumps(parameters)]
-    done = subprocess.run(words, env={**os.environ, "OMP_NUM_THREADS": str(threads)}, stdout=subprocess.PIPE, text=True)
+    words = [sys.executable, __file__, "--child", kind, str(threads), str(mesh), str(out), json.dumps(parameters)]
+    done = subprocess.run(words, stdout=subprocess.PIPE, text=True)
     if done.returncode:
         sys.exit(f"{kind} on {mesh} ended with {done.returncode}.")
     return json.loads(done.stdout.splitlines()[-1])
@@ -90,17 +91,16 @@ def subdivided(source, times, noise, folder):
     ms.meshing_surface_subdivision_loop(iterations=times, threshold=pymeshlab.PercentageValue(0))
     vertices, faces = ms.current_mesh().vertex_matrix(), ms.current_mesh().face_matrix()
     if noise:
-        edge = np.linalg.norm(vertices[faces] - vertices[np.roll(faces, 1, axis=1)], axis=2).mean()
-        vertices = vertices + np.random.default_rng(7).normal(0, noise * edge, vertices.shape)
-    file = folder / f"{source.stem} x{4 ** times}{', noise' if noise else ''}.ply"
-    made = pymeshlab.MeshSet()
-    made.add_mesh(pymeshlab.Mesh(vertices, faces))
-    made.save_current_mesh(str(file))
-    return file
+        vertices = noisy(vertices, faces, noise)
+    return save(folder / f"{source.stem} x{4 ** times}{', noise' if noise else ''}.ply", vertices, faces)
 
 
-HEAD = ("| mesh | faces | | charts | L2 | Linf | seam | cpu s | wall s | wall s, 2 threads | " + " / ".join(STAGES) +
-        " s | us per face | peak MB |")
+COLUMNS = ("mesh", "faces", "", "charts", "L2", "Linf", "seam", "cpu s", "wall s", "wall s, 2 threads", " / ".join(STAGES) + " s",
+           "us per face", "peak MB")
+
+
+def show(cells):
+    print("| " + " | ".join(str(cell or "") for cell in cells) + " |", flush=True)
 
 
 def line(mesh, row, how, quality, second=None):
@@ -110,7 +110,7 @@ def line(mesh, row, how, quality, second=None):
     cells = [mesh.stem, f"{row['faces']:,}", how, f"{charts:.0f}", l2 and f"{l2:.4f}", linf and f"{linf:.3f}",
              seam and f"{seam:.2f}", f"{row['cpu']:.2f}", f"{row['wall']:.2f}", second and f"{second['wall']:.2f}", stages,
              f"{1e6 * row['cpu'] / row['faces']:.0f}", f"{row['bytes'] / 1e6:.0f}"]
-    print("| " + " | ".join(str(cell or "") for cell in cells) + " |", flush=True)
+    show(cells)
 
 
 def own_quality(figures):
@@ -162,8 +162,8 @@ def main():
     parser.add_argument("--huge", action="store_true")
     options = parser.parse_args()
     bounds = Bounds()
-    print(HEAD)
-    print("|---" * HEAD.count(" | ") + "|---|")
+    show(COLUMNS)
+    show("---" for _ in COLUMNS)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         if not options.no_small:
@@ -178,6 +178,7 @@ def main():
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--child"]:
         work = {"ours": child_ours, "xatlas": child_xatlas}[sys.argv[2]]
-        print(json.dumps(work(sys.argv[3], sys.argv[4], json.loads(sys.argv[5]))))
+        os.environ["OMP_NUM_THREADS"] = sys.argv[3]  # which is read when a filter begins; common.py has set it to 1
+        print(json.dumps(work(sys.argv[4], sys.argv[5], json.loads(sys.argv[6]))))
     else:
         sys.exit(main())

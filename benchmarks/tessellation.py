@@ -9,6 +9,7 @@ import numpy as np
 import pymeshlab
 
 from common import ROOT
+from meshes import noisy, save
 
 from atlases import Atlas, evaluator, make
 
@@ -27,18 +28,6 @@ def quartered(vertices, faces):
     ab, bc, ca = middle.reshape(-1, 3).T + len(vertices)
     parts = ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
     return np.vstack([vertices, vertices[pairs].mean(axis=1)]), np.stack([np.stack(p, 1) for p in parts], 1).reshape(-1, 3)
-
-
-def noisy(vertices, faces):
-    mean_edge = np.linalg.norm(vertices[faces] - vertices[np.roll(faces, 1, axis=1)], axis=2).mean()
-    return vertices + np.random.default_rng(5).normal(0, NOISE * mean_edge, vertices.shape)
-
-
-def save(path, vertices, faces):
-    ms = pymeshlab.MeshSet()
-    ms.add_mesh(pymeshlab.Mesh(vertices, faces))
-    ms.save_current_mesh(str(path))
-    return path
 
 
 def laid_on(clean, atlas):
@@ -76,7 +65,7 @@ def tessellation(models, bounds):
             vertices, faces, _ = evaluator.read_mesh(str(mesh))
             clean = make(mesh)
             compare(mesh.stem, len(faces), clean, clean, clean.l2, clean.l2, bounds)
-            atlas = make(save(folder / "noisy.ply", noisy(vertices, faces), faces))
+            atlas = make(save(folder / "noisy.ply", noisy(vertices, faces, NOISE), faces))
             compare(f"{mesh.stem}, noise {NOISE:.0%}", len(faces), atlas, clean, laid_on(mesh, atlas).l2,
                     atlas.l2, bounds)
             for times in (4, 16):

@@ -4,10 +4,10 @@ import json
 import pathlib
 
 import numpy as np
-import pymeshlab
 import pytest
 from PIL import Image
 
+from loading import load
 from pattern_files import dxf_pieces, svg_pieces
 from pymeshlab_dcharts import demo
 
@@ -19,12 +19,6 @@ def folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("demo") / "new" / "cylinder"
     assert demo.main([str(MESH), str(folder)]) == 0
     return folder
-
-
-def load(path):
-    ms = pymeshlab.MeshSet()
-    ms.load_new_mesh(str(path))
-    return ms
 
 
 def test_report_holds_figures_parameters_seconds_and_versions(folder):

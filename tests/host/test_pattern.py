@@ -8,6 +8,7 @@ import pytest
 from scipy.spatial import cKDTree
 
 from cases import is_sentence
+from loading import load
 from made_patterns import ENDINGS, MODELS, SIZE, made_pattern
 from pattern_files import LEGEND, dxf_layers, dxf_pieces, length, outline_lengths, pdf_pages, svg_pieces, svg_texts
 from sheet_overlap import doubled_allowances, read_groups
@@ -19,12 +20,6 @@ ALLOWANCE = 7.0  # mm, the default
 ALL_MODELS = {**MODELS, 'cad_part': 'Paper'}
 CLOSE = 0.01  # mm
 STITCH = (0.22, 0.3)  # mm, line widths in the PDF
-
-
-def load(path):
-    ms = pymeshlab.MeshSet()
-    ms.load_new_mesh(str(path))
-    return ms
 
 
 def area(mesh):

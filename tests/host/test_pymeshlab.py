@@ -9,6 +9,7 @@ import pytest
 from atlas_check import EVALUATOR, SHARED, evaluate, flaws
 from cases import (BOOLEANS, CHOICES, EXAMPLES, FILES, FILTERS, OUT_OF_RANGE, PYTHON_NAMES, REFUSED_MESHES, STAGES, is_sentence,
                    shipped_meshes)
+from loading import load
 from mlx import read_script
 from paint import paint
 
@@ -19,12 +20,6 @@ MESHES = shipped_meshes()
 MissingComponent = pymeshlab.pmeshlab.MissingComponentException
 BY_PYTHON_NAME = {python: parameters for python, parameters in FILTERS.values()}
 ATLAS = 'dcharts_texture_atlas'
-
-
-def load(path):
-    ms = pymeshlab.MeshSet()
-    ms.load_new_mesh(str(path))
-    return ms
 
 
 def state(ms):

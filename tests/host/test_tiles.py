@@ -8,8 +8,9 @@ import subprocess
 import sys
 
 import numpy as np
-import pymeshlab
 import pytest
+
+from loading import load
 
 ROOT = pathlib.Path(__file__).parents[2]
 PAGE = (ROOT / "docs/large-scans.md").read_text(encoding="utf-8")
@@ -34,13 +35,6 @@ def joined(tmp_path_factory):
     done = run(commands, folder)
     assert done.returncode == 0, done.stdout
     return folder
-
-
-def load(path):
-    """A MeshSet, which keeps its mesh alive."""
-    ms = pymeshlab.MeshSet()
-    ms.load_new_mesh(str(path))
-    return ms
 
 
 def test_the_scan_is_as_it_was_with_texcoords_of_tiles_in_their_squares(joined):
