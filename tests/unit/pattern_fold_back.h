@@ -3,7 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include <Eigen/SparseCholesky>
@@ -20,73 +23,210 @@ struct FoldedBack {
   double hausdorff = 0;  ///< between what was folded and the model, as a share of its longest side
 };
 
-/// The paper's edges are springs that keep their length in the plane. What is glued together is the model's
-/// vertices, held where they are by weak springs, as by hand. Of a pattern made on the faces of `mesh`.
-inline FoldedBack FoldBack(const SurfaceData& mesh, const Pattern& pattern) {
-  constexpr double kHeld = 0.01, kShortest = 0.2;  // springs per mm; mm
-  constexpr int kRounds = 200;
-  struct Spring {
-    int a, b;
-    double length, weight;
-  };
-  std::vector<Spring> springs;
+/// The pieces glued along their seams, and where each point of them belongs.
+struct GluedPaper {
+  SurfaceData model;  ///< mm
+  /// Per face of the model the lengths of its edges in the plane, edge k from corner k to the next; mm.
+  std::vector<std::array<double, 3>> lengths;
+};
+
+/// Of a pattern made on the faces of `mesh`.
+inline GluedPaper Glue(const SurfaceData& mesh, const Pattern& pattern) {
+  GluedPaper paper;
+  paper.model = mesh;
+  for (auto& v : paper.model.vertices)
+    for (double& x : v) x *= pattern.scale;
+  paper.lengths.resize(mesh.faces.size());
   for (const Piece& piece : pattern.pieces)
     for (size_t t = 0; t < piece.flat.triangles.size(); ++t)
       for (int k = 0; k < 3; ++k) {
-        const auto &corner = piece.flat.triangles[t], &face = mesh.faces[piece.flat.face[t]];
-        const double length =
+        const auto& corner = piece.flat.triangles[t];
+        paper.lengths[piece.flat.face[t]][k] =
             (piece.flat.vertices[corner[k]] - piece.flat.vertices[corner[(k + 1) % 3]]).norm();
-        springs.push_back({face[k], face[(k + 1) % 3], length, 1 / std::max(length, kShortest)});
       }
-  SurfaceData model = mesh;
-  for (auto& v : model.vertices)
-    for (double& x : v) x *= pattern.scale;
-  const auto count = static_cast<Eigen::Index>(model.vertices.size());
-  Eigen::MatrixX3d at_model(count, 3);
-  for (int v = 0; v < count; ++v) at_model.row(v) = PositionOf(model, v);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const Spring& s : springs)
-    for (const auto& [i, j] : {std::pair(s.a, s.b), std::pair(s.b, s.a)}) {
-      entries.emplace_back(i, i, s.weight);
-      entries.emplace_back(i, j, -s.weight);
-    }
-  for (int v = 0; v < count; ++v) entries.emplace_back(v, v, kHeld);
-  Eigen::SparseMatrix<double> matrix(count, count);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
-  Eigen::MatrixX3d paper = at_model;
-  for (int round = 0; round < kRounds; ++round) {
-    Eigen::MatrixX3d right = kHeld * at_model;
-    for (const Spring& s : springs) {
-      const Eigen::RowVector3d way = paper.row(s.a) - paper.row(s.b);
-      const Eigen::RowVector3d pull = s.weight * s.length / std::max(way.norm(), 1e-12) * way;
-      right.row(s.a) += pull;
-      right.row(s.b) -= pull;
-    }
-    paper = solver.solve(right);
+  return paper;
+}
+
+/// Each triangle in four, so that the paper can bend between the model's edges, too. `folded` gets places for
+/// the new points.
+inline GluedPaper Refined(const GluedPaper& paper, Eigen::MatrixX3d& folded) {
+  GluedPaper fine;
+  fine.model.vertices = paper.model.vertices;
+  std::vector<std::pair<int, int>> ends;
+  std::map<std::pair<int, int>, int> middles;
+  const auto middle = [&](int a, int b) {
+    const auto [at, is_new] = middles.try_emplace(std::minmax(a, b), fine.model.vertices.size());
+    if (!is_new) return at->second;
+    const auto p = fine.model.vertices[a], q = fine.model.vertices[b];
+    fine.model.vertices.push_back({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
+    ends.emplace_back(a, b);
+    return at->second;
+  };
+  for (size_t f = 0; f < paper.model.faces.size(); ++f) {
+    const auto [a, b, c] = paper.model.faces[f];
+    const double x = paper.lengths[f][0] / 2, y = paper.lengths[f][1] / 2, z = paper.lengths[f][2] / 2;
+    const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    fine.model.faces.insert(fine.model.faces.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {bc, ca, ab}});
+    fine.lengths.insert(fine.lengths.end(), {{x, y, z}, {x, y, z}, {x, y, z}, {x, y, z}});
   }
-  FoldedBack result;
-  double squares = 0;
-  for (const Spring& s : springs) {
-    const double strain = (paper.row(s.a) - paper.row(s.b)).norm() / std::max(s.length, kShortest) - 1;
-    if (s.length > kShortest) squares += strain * strain;
+  const Eigen::Index old = folded.rows();
+  folded.conservativeResize(old + static_cast<Eigen::Index>(ends.size()), 3);
+  for (size_t k = 0; k < ends.size(); ++k)
+    folded.row(old + static_cast<Eigen::Index>(k)) =
+        (folded.row(ends[k].first) + folded.row(ends[k].second)) / 2;
+  return fine;
+}
+
+/// The paper's edges are springs that keep their length in the plane. A point is free near its place on the
+/// model, and soon held the harder the farther it is. Newton's method.
+class PaperFolder {
+ public:
+  explicit PaperFolder(const GluedPaper& paper)
+      : at_model_(paper.model.vertices.size(), 3), free_(kFree * LongestSide(paper.model)) {
+    for (Eigen::Index v = 0; v < at_model_.rows(); ++v)
+      at_model_.row(v) = PositionOf(paper.model, static_cast<int>(v));
+    std::map<std::pair<int, int>, std::pair<double, int>> edges;  // sum and number of the sides' lengths
+    for (size_t f = 0; f < paper.model.faces.size(); ++f)
+      for (int k = 0; k < 3; ++k) {
+        const auto& face = paper.model.faces[f];
+        auto& [sum, sides] = edges[std::minmax(face[k], face[(k + 1) % 3])];
+        sum += paper.lengths[f][k];
+        ++sides;
+      }
+    for (const auto& [ends, sides] : edges)
+      springs_.push_back({ends.first, ends.second, sides.first / sides.second});
+    double length = 0;
+    for (const Spring& s : springs_) length += s.length / static_cast<double>(springs_.size());
+    held_ = kHeld * length;
   }
-  result.strain = std::sqrt(squares / static_cast<double>(springs.size()));
-  SurfaceData folded = model;
-  for (int v = 0; v < count; ++v) folded.vertices[v] = {paper(v, 0), paper(v, 1), paper(v, 2)};
+
+  Eigen::MatrixX3d AtModel() const { return at_model_; }
+
+  void Fold(int most_steps, Eigen::MatrixX3d& folded) {
+    double energy = Energy(folded);
+    for (int step = 0; step < most_steps; ++step) {
+      const Eigen::MatrixX3d way = NewtonStep(folded);
+      double share = 1, next = 0;
+      constexpr double kLeastShare = 1e-3, kLeastGain = 1e-3;
+      while ((next = Energy(folded + share * way)) >= energy && share > kLeastShare) share /= 2;
+      if (next >= energy) return;
+      folded += share * way;
+      const bool settled = energy - next < kLeastGain * next && share == 1;
+      energy = next;
+      if (settled) return;
+    }
+  }
+
+  double Strain(const Eigen::MatrixX3d& folded) const {
+    double squares = 0;
+    for (const Spring& s : springs_)
+      if (s.length > kShortest)
+        squares += std::pow((folded.row(s.a) - folded.row(s.b)).norm() / s.length - 1, 2);
+    return std::sqrt(squares / static_cast<double>(springs_.size()));
+  }
+
+ private:
+  static constexpr double kShortest = 0.2;  // mm
+  static constexpr double kFree = KFREE;   // of the model's size
+  static constexpr double kHeld = KHELD;     // against a spring of the mean length
+  struct Spring {
+    int a, b;
+    double length;
+  };
+
+  static double Stiffness(const Spring& s) { return 1 / std::max(s.length, kShortest); }
+
+  double Energy(const Eigen::MatrixX3d& folded) const {
+    double energy = 0;
+    for (const Spring& s : springs_)
+      energy += Stiffness(s) / 2 * std::pow((folded.row(s.a) - folded.row(s.b)).norm() - s.length, 2);
+    for (Eigen::Index v = 0; v < folded.rows(); ++v) {
+      const double far = (folded.row(v) - at_model_.row(v)).squaredNorm() / (free_ * free_);
+      energy += held_ * free_ * free_ / 6 * far * far * far;
+    }
+    return energy;
+  }
+
+  Eigen::MatrixX3d NewtonStep(const Eigen::MatrixX3d& folded) {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(21 * springs_.size() + 6 * folded.rows());
+    const auto add = [&](int v, int w, const Eigen::Matrix3d& block) {  // of the lower triangle, v >= w
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < (v == w ? i + 1 : 3); ++j)
+          entries.emplace_back(3 * v + i, 3 * w + j, block(i, j));
+    };
+    Eigen::VectorXd pull = Eigen::VectorXd::Zero(3 * folded.rows());
+    for (const Spring& s : springs_) {
+      const Eigen::Vector3d way = folded.row(s.b) - folded.row(s.a);
+      const double length = std::max(way.norm(), 1e-9), stiffness = Stiffness(s);
+      const Eigen::Vector3d along = way / length;
+      // One that is pressed would rather turn, which is left out: the matrix stays positive definite.
+      const double across = std::max(0.0, 1 - s.length / length);
+      const Eigen::Matrix3d block =
+          stiffness * (across * Eigen::Matrix3d::Identity() + (1 - across) * along * along.transpose());
+      add(s.a, s.a, block);
+      add(s.b, s.b, block);
+      add(std::max(s.a, s.b), std::min(s.a, s.b), -block);
+      const Eigen::Vector3d force = stiffness * (length - s.length) * along;
+      pull.segment<3>(3 * s.a) += force;
+      pull.segment<3>(3 * s.b) -= force;
+    }
+    constexpr double kSteady = 1e-6;
+    for (int v = 0; v < folded.rows(); ++v) {
+      const Eigen::Vector3d off = (folded.row(v) - at_model_.row(v)) / free_;
+      const double square = off.squaredNorm();
+      add(v, v,
+          held_ * square * (square * Eigen::Matrix3d::Identity() + 4 * off * off.transpose()) +
+              kSteady * Eigen::Matrix3d::Identity());
+      pull.segment<3>(3 * v) -= held_ * free_ * square * square * off;
+    }
+    Eigen::SparseMatrix<double> matrix(pull.size(), pull.size());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    if (!analyzed_) solver_.analyzePattern(matrix);
+    analyzed_ = true;
+    solver_.factorize(matrix);
+    const Eigen::VectorXd way = solver_.solve(pull);
+    return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(way.data(),
+                                                                                       folded.rows(), 3);
+  }
+
+  std::vector<Spring> springs_;
+  Eigen::MatrixX3d at_model_;
+  double free_, held_ = 0;  // mm; springs per mm
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
+  bool analyzed_ = false;
+};
+
+/// Both ways, between the points and the middles of edges and faces of each and the surface of the other.
+inline double HausdorffDistance(const SurfaceData& a, const SurfaceData& b) {
   double farthest = 0;
   const auto measure = [&](const SurfaceData& from, const FaceTree& to) {
-    for (const auto& [a, b, c] : from.faces) {
-      const Eigen::Vector3d p = PositionOf(from, a), q = PositionOf(from, b), r = PositionOf(from, c);
+    for (const auto& [i, j, k] : from.faces) {
+      const Eigen::Vector3d p = PositionOf(from, i), q = PositionOf(from, j), r = PositionOf(from, k);
       for (const Eigen::Vector3d& sample :
            {p, Eigen::Vector3d((p + q) / 2), Eigen::Vector3d((p + q + r) / 3)})
         farthest = std::max(farthest, to.Find(sample).distance);
     }
   };
-  measure(model, FaceTree(folded));
-  measure(folded, FaceTree(model));
-  result.hausdorff = farthest / LongestSide(model);
-  return result;
+  measure(a, FaceTree(b));
+  measure(b, FaceTree(a));
+  return farthest;
+}
+
+/// Of a pattern made on the faces of `mesh`.
+inline FoldedBack FoldBack(const SurfaceData& mesh, const Pattern& pattern) {
+  constexpr int kSteps = 60;
+  GluedPaper paper = Glue(mesh, pattern);
+  PaperFolder coarse(paper);
+  Eigen::MatrixX3d folded = coarse.AtModel();
+  coarse.Fold(kSteps, folded);
+  paper = Refined(paper, folded);
+  PaperFolder fine(paper);
+  fine.Fold(kSteps, folded);
+  SurfaceData at = paper.model;
+  for (size_t v = 0; v < at.vertices.size(); ++v)
+    for (int d : {0, 1, 2}) at.vertices[v][d] = folded(static_cast<Eigen::Index>(v), d);
+  return {fine.Strain(folded), HausdorffDistance(at, paper.model) / LongestSide(paper.model)};
 }
 
 }  // namespace dcharts::test
