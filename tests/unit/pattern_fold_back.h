@@ -103,7 +103,9 @@ class PaperFolder {
   Eigen::MatrixX3d AtModel() const { return at_model_; }
 
   void Fold(int most_steps, Eigen::MatrixX3d& folded) {
+    constexpr double kNothing = 1e-9;
     double energy = Energy(folded);
+    if (energy < kNothing) return;
     for (int step = 0; step < most_steps; ++step) {
       const Eigen::MatrixX3d way = NewtonStep(folded);
       double share = 1, next = 0;
@@ -127,8 +129,9 @@ class PaperFolder {
 
  private:
   static constexpr double kShortest = 0.2;  // mm
-  static constexpr double kFree = KFREE;   // of the model's size
-  static constexpr double kHeld = KHELD;     // against a spring of the mean length
+  static constexpr double kFree = 0.0037;   // of the model's size
+  static constexpr double kHeld = 1e-3;     // against a spring of the mean length
+  static constexpr int kHalfPower = 6;      // of the distance: so high that it is much like a wall
   struct Spring {
     int a, b;
     double length;
@@ -142,7 +145,7 @@ class PaperFolder {
       energy += Stiffness(s) / 2 * std::pow((folded.row(s.a) - folded.row(s.b)).norm() - s.length, 2);
     for (Eigen::Index v = 0; v < folded.rows(); ++v) {
       const double far = (folded.row(v) - at_model_.row(v)).squaredNorm() / (free_ * free_);
-      energy += held_ * free_ * free_ / 6 * far * far * far;
+      energy += held_ * free_ * free_ / (2 * kHalfPower) * std::pow(far, kHalfPower);
     }
     return energy;
   }
@@ -174,11 +177,11 @@ class PaperFolder {
     constexpr double kSteady = 1e-6;
     for (int v = 0; v < folded.rows(); ++v) {
       const Eigen::Vector3d off = (folded.row(v) - at_model_.row(v)) / free_;
-      const double square = off.squaredNorm();
+      const double square = off.squaredNorm(), held = held_ * std::pow(square, kHalfPower - 2);
       add(v, v,
-          held_ * square * (square * Eigen::Matrix3d::Identity() + 4 * off * off.transpose()) +
-              kSteady * Eigen::Matrix3d::Identity());
-      pull.segment<3>(3 * v) -= held_ * free_ * square * square * off;
+          (held * square + kSteady) * Eigen::Matrix3d::Identity() +
+              (2 * kHalfPower - 2) * held * off * off.transpose());
+      pull.segment<3>(3 * v) -= held * square * free_ * off;
     }
     Eigen::SparseMatrix<double> matrix(pull.size(), pull.size());
     matrix.setFromTriplets(entries.begin(), entries.end());
@@ -215,14 +218,14 @@ inline double HausdorffDistance(const SurfaceData& a, const SurfaceData& b) {
 
 /// Of a pattern made on the faces of `mesh`.
 inline FoldedBack FoldBack(const SurfaceData& mesh, const Pattern& pattern) {
-  constexpr int kSteps = 60;
+  constexpr int kSteps = 60, kFineSteps = 12;
   GluedPaper paper = Glue(mesh, pattern);
   PaperFolder coarse(paper);
   Eigen::MatrixX3d folded = coarse.AtModel();
   coarse.Fold(kSteps, folded);
   paper = Refined(paper, folded);
   PaperFolder fine(paper);
-  fine.Fold(kSteps, folded);
+  fine.Fold(kFineSteps, folded);
   SurfaceData at = paper.model;
   for (size_t v = 0; v < at.vertices.size(); ++v)
     for (int d : {0, 1, 2}) at.vertices[v][d] = folded(static_cast<Eigen::Index>(v), d);
