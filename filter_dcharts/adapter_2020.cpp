@@ -68,8 +68,11 @@ bool Plugin2020::applyFilter(QAction* action, MeshDocument& document, const Rich
     return callback == nullptr || callback(percent, text);
   };
   const auto write_log = [this](const std::string& line) { Log(line); };
+  const auto tell = [&](const Report& report) {
+    for (const std::string& line : LogLines(report)) write_log(line);
+  };
   try {
-    RunOnDocument<Host>(SpecOf(ID(action)), parameters, document, progress, write_log);
+    RunOnDocument<Host>(SpecOf(ID(action)), parameters, document, progress, write_log, tell);
     return true;
   } catch (const Error& error) {
     errorMessage = QString::fromUtf8(error.what());

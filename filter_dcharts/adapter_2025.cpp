@@ -77,12 +77,15 @@ std::map<std::string, QVariant> Plugin2025::applyFilter(const QAction* action,
     return callback == nullptr || callback(percent, text);
   };
   const auto write_log = [this](const std::string& line) { log(line); };
-  try {
-    const Report report = RunOnDocument<Host>(filter, parameters, document, progress, write_log);
-    post_condition_mask = static_cast<unsigned int>(PostConditionMask<MeshModel>(filter));
-    std::map<std::string, QVariant> figures;
+  std::map<std::string, QVariant> figures;
+  const auto tell = [&](const Report& report) {
+    for (const std::string& line : LogLines(report)) write_log(line);
     for (const auto& [name, value] : Figures(report))
       figures[name] = std::visit([](auto number) { return QVariant(number); }, value);
+  };
+  try {
+    RunOnDocument<Host>(filter, parameters, document, progress, write_log, tell);
+    post_condition_mask = static_cast<unsigned int>(PostConditionMask<MeshModel>(filter));
     return figures;
   } catch (const Error& error) {
     throw MLException(QString::fromUtf8(error.what()));

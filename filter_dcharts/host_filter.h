@@ -104,12 +104,13 @@ void AddLayer(Document& document, const char* name, Fill fill) {
 
 /// Runs the filter on the document's current mesh and writes the result at the end; a new layer does not
 /// become the current one. Host::UpdateBox(model) finishes a new layer, Host::RemoveLayer(document, model)
-/// removes it, Host::Texture(model, name) is a texture's image. Throws Error and Cancelled, nothing else;
-/// then the document is unchanged.
-template <class Host, class Document, class List>
-Report RunOnDocument(const FilterSpec& filter, const List& list, Document& document,
-                     const Progress::Callback& callback, const Progress::Logger& log) {
-  return WithSentences([&] {
+/// removes it, Host::Texture(model, name) is a texture's image. `tell` gets the report before anything is
+/// written, since telling may need memory that is not there. Throws Error and Cancelled, nothing else; then
+/// the document is unchanged.
+template <class Host, class Document, class List, class Tell>
+void RunOnDocument(const FilterSpec& filter, const List& list, Document& document,
+                   const Progress::Callback& callback, const Progress::Logger& log, const Tell& tell) {
+  WithSentences([&] {
     Progress progress(callback, log);
     auto* model = document.mm();
     SurfaceData surface;
@@ -120,6 +121,7 @@ Report RunOnDocument(const FilterSpec& filter, const List& list, Document& docum
       if (params.print_texture) ReadColors<Host>(*model, surface);
     }
     const SurfaceChange change = RunFilter(filter, model != nullptr ? &surface : nullptr, params, progress);
+    tell(change.report);
 
     SurfaceWriter writer(*model, change);
     if (!change.seam_lines.empty())
@@ -129,8 +131,6 @@ Report RunOnDocument(const FilterSpec& filter, const List& list, Document& docum
       AddLayer<Host>(document, "D-Charts pattern",
                      [&](auto& layer) { FillPieceLayer(change.pieces, layer); });
     writer.Commit();
-    for (const std::string& line : LogLines(change.report)) log(line);
-    return change.report;
   });
 }
 

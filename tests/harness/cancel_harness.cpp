@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Cancels every filter of a plugin at every callback, lets it refuse a mesh, and checks that the document
-/// keeps every byte; and that deleted elements of a mesh don't matter. usage: cancel_harness PLUGIN_FILE
+/// keeps every byte, also without memory; and that deleted elements of a mesh don't matter.
+/// usage: cancel_harness PLUGIN_FILE
 /// Prints a line per filter; exit code 0 when all is well, 1 with the reasons otherwise.
 #include <algorithm>
 #include <cstdio>
@@ -14,6 +15,7 @@
 #include "host_api.h"
 #include "snapshot.h"
 #include "test_mesh.h"
+#include "without_memory.h"
 
 namespace harness {
 namespace {
@@ -153,15 +155,16 @@ int RunAll(Plugin& plugin, bool seam_layer) {
   return failures;
 }
 
-/// The filter that does all at once.
-int RunWithDeleted(Plugin& plugin) {
+/// `check` says in words what is wrong with a filter.
+int RunOne(Plugin& plugin, const char* filter_name, const char* what,
+           std::string (*check)(Plugin&, QAction*)) {
   for (QAction* filter : plugin.Filters()) {
-    if (filter->text() != "D-Charts: Texture Atlas") continue;
-    const std::string problem = DifferenceByDeleted(plugin, filter);
-    std::printf("%s deleted elements: %s\n", problem.empty() ? "ok  " : "FAIL", problem.c_str());
+    if (filter->text() != filter_name) continue;
+    const std::string problem = check(plugin, filter);
+    std::printf("%s %s: %s\n", problem.empty() ? "ok  " : "FAIL", what, problem.c_str());
     return problem.empty() ? 0 : 1;
   }
-  std::printf("FAIL there is no Texture Atlas\n");
+  std::printf("FAIL there is no %s\n", filter_name);
   return 1;
 }
 
@@ -177,7 +180,9 @@ int main(int argc, char** argv) {
   try {
     harness::Plugin plugin(QString::fromLocal8Bit(argv[1]));
     const int failures =
-        harness::RunAll(plugin, false) + harness::RunAll(plugin, true) + harness::RunWithDeleted(plugin);
+        harness::RunAll(plugin, false) + harness::RunAll(plugin, true) +
+        harness::RunOne(plugin, "D-Charts: Texture Atlas", "deleted elements", harness::DifferenceByDeleted) +
+        harness::RunOne(plugin, "D-Charts: Cut", "without memory", harness::ChangeWithoutMemory);
     return failures == 0 ? 0 : 1;
   } catch (const std::exception& error) {
     std::printf("FAIL %s\n", error.what());
