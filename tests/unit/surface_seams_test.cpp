@@ -71,6 +71,18 @@ TEST(Seams, ProvisionalTexcoordsJumpExactlyAtTheSeams) {
     }
 }
 
+TEST(Seams, AreTakenBackWhereTexcoordsDoNotShowThem) {
+  const TestSurface surface(shapes::Grid(6, 6));
+  const SeamMask line = Along(surface, 0, 0.5);
+  ASSERT_NE(line, None(surface));
+  SeamMask more = line;
+  for (int h = 0; h < surface->HalfEdgeCount(); h += 7)
+    if (surface->Opposite(h) >= 0) SetBoth(surface, more, h);
+  ASSERT_NE(more, line);
+  DropSeamsNotIn(ProvisionalTexcoords(*surface, line), *surface, more);
+  EXPECT_EQ(more, line);
+}
+
 TEST(Seams, ProvisionalTexcoordsAreEqualOnlyForOneVertex) {
   const TestSurface surface(shapes::Torus(10));
   const SeamMask seams = RandomSeams(surface, 3, 4);

@@ -36,6 +36,7 @@ std::vector<Complex> Samples(const Polyline& loop, int count) {
 struct Shape {
   std::vector<Polyline> loops;
   std::vector<Complex> samples;
+  std::vector<double> radii;  // of the samples, sorted
   double area = 0, length = 0, size = 0;
 };
 
@@ -56,7 +57,9 @@ Shape ShapeOf(const Piece& piece, bool mirrored) {
   for (Polyline& loop : shape.loops)
     for (Point2& p : loop) p -= Point2(middle.real(), middle.imag());
   shape.area = piece.area;
-  for (const Complex& z : shape.samples) shape.size = std::max(shape.size, 2 * std::abs(z));
+  for (const Complex& z : shape.samples) shape.radii.push_back(std::abs(z));
+  std::sort(shape.radii.begin(), shape.radii.end());
+  shape.size = 2 * shape.radii.back();
   const Polyline& outer = shape.loops.front();
   for (size_t k = 0; k < outer.size(); ++k) shape.length += (outer[(k + 1) % outer.size()] - outer[k]).norm();
   return shape;
@@ -110,18 +113,31 @@ double FarthestCorner(const std::vector<Polyline>& from, const Pose& pose, const
   return farthest;
 }
 
+// Of shapes of one form, whichever way they are turned, the samples are as far from the middle.
+double MeanDifferenceOfRadii(const Shape& a, const Shape& b) {
+  double sum = 0;
+  for (int s = 0; s < kSamples; ++s) sum += std::abs(a.radii[s] - b.radii[s]);
+  return sum / kSamples;
+}
+
 bool AreCongruent(const Shape& a, const Shape& b, double tolerance) {
   constexpr double kOfSize = 0.03;
   const double most = std::min(tolerance, kOfSize * std::max(a.size, b.size));
   if (a.loops.size() != b.loops.size()) return false;
   if (std::abs(a.area - b.area) > most * std::max(a.length, b.length)) return false;
-  if (std::abs(a.size - b.size) > 4 * most) return false;
+  if (std::abs(a.size - b.size) > 4 * most || MeanDifferenceOfRadii(a, b) > most) return false;
   // Of all starting points along the loop the ones that fit best; the best turn of each is known.
+  double squares = 0;
+  for (int s = 0; s < kSamples; ++s) squares += std::norm(a.samples[s]) + std::norm(b.samples[s]);
+  // Samples stand a step apart at most, and wavy outlines have them a little further on or back.
+  const double farthest = 2 * most + 2 * std::max(a.length, b.length) / kSamples;
   std::vector<std::pair<double, Complex>> turns;  // less fit first value: sum of products, larger is better
   for (int shift = 0; shift < kSamples; ++shift) {
     Complex sum = 0;
     for (int s = 0; s < kSamples; ++s) sum += a.samples[(s + shift) % kSamples] * std::conj(b.samples[s]);
-    if (std::abs(sum) > 0) turns.push_back({-std::abs(sum), std::conj(sum) / std::abs(sum)});
+    const double apart = std::sqrt(std::max(0.0, squares - 2 * std::abs(sum)) / kSamples);
+    if (std::abs(sum) > 0 && apart <= farthest)
+      turns.push_back({-std::abs(sum), std::conj(sum) / std::abs(sum)});
   }
   std::sort(turns.begin(), turns.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
   constexpr size_t kTries = 8;  // round pieces fit in several ways

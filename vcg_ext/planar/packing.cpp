@@ -26,6 +26,7 @@ constexpr int kTurns = 16, kCells = 128, kSearches = 1, kMostMoves = 50, kCompac
 #else
 constexpr int kTurns = 64, kCells = 512, kSearches = 5, kMostMoves = 3500, kCompactSteps = 300;
 #endif
+constexpr int kFewCharts = 300;  // more would take long in so many orders
 
 Points2 Turned(const Points2& points, double angle) {
   Eigen::Matrix2d r;
@@ -58,7 +59,7 @@ class Packer {
                                                  : 1;
     for (const Points2& outline : outlines) {
       std::vector<Turn> angles;
-      if (rotate && outlines.size() <= 200) few_ = 4;
+      if (rotate && outlines.size() <= kFewCharts) few_ = 4;
       const double upright = rotate ? UprightAngle(outline) : 0;
       for (int k = 0; k < turns; ++k) {
         Turn turn;
@@ -113,7 +114,7 @@ class Packer {
     if (side >= bound) return 0;
     // The board only fills up: where a chart found no place, the next one of about its size need not look
     // again. With few charts it looks all the same.
-    const bool many = outlines_.size() > 200;
+    const bool many = outlines_.size() > kFewCharts;
     std::map<std::pair<int, int>, int> lowest_place;
     for (int k : plan.order) {
       int best_x = -1, best_y = 0;
@@ -241,7 +242,7 @@ Packing Pack(const std::vector<Points2>& outlines, const PackOptions& options,
 
   // Large charts first is a good rule, not a law.
   std::vector<PackPlan> plans;
-  for (double share : count <= 300 ? std::vector<double>{0.5, 1, 0} : std::vector<double>{0.5}) {
+  for (double share : count <= kFewCharts ? std::vector<double>{0.5, 1, 0} : std::vector<double>{0.5}) {
     if (count <= 1000) plans.push_back({packer.OrderBy(share), 0, 1});
     plans.push_back({packer.OrderBy(share), cells, 1});
     if (count <= 1000) plans.push_back({packer.OrderBy(share), cells, 0.5});

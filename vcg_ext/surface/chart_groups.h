@@ -55,7 +55,7 @@ struct ChartGroups {
     constexpr double kCoarseExcess = 1.3;
     return 1 + kCoarseExcess * (bound - 1);
   }
-  double SeamCost(double length) const { return params.seam_weight * kSeamPrice * length; }
+  double SeamCost(double length) const { return seam_share * params.seam_weight * kSeamPrice * length; }
   double Energy(int c) const { return charts[c].trial.energy * charts[c].area; }
   /// Of all charts and the seams between them.
   double Cost() const {
@@ -166,6 +166,13 @@ struct ChartGroups {
         if (owner[p] != owner[q]) charts[owner[p]].borders[owner[q]] += length;
   }
 
+  /// Each part is a chart again.
+  void TakeApart() {
+    charts.resize(parts.Count());
+    for (Chart& chart : charts) chart.alive = true;
+    alive = parts.Count();
+  }
+
   /// Merges two charts; returns the new one.
   int Join(int a, int b, const ChartTrial& trial) {
     Chart merged = Made(PartsOfBoth(a, b));
@@ -213,7 +220,8 @@ struct ChartGroups {
   Progress& progress;
   std::vector<Chart> charts;  ///< a merge adds one; those that are alive are a partition of the parts
   int alive = 0;
-  double bound = kNoBound;                                           ///< on the L2 stretch of a chart
+  double bound = kNoBound;  ///< on the L2 stretch of a chart
+  double seam_share = 1;    ///< of the price of seams: merges are taken in another order when it is less
   std::map<std::vector<int>, std::pair<double, ChartTrial>> trials;  ///< of parts: bound, trial
   std::vector<std::vector<int>> overlapping;                         ///< parts whose chart overlapped itself
   bool overlaps_stay = true;                                         ///< what holds such parts isn't tried

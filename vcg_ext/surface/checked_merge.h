@@ -27,14 +27,13 @@ class CheckedMerger {
 
   void Run() {
     const double bound = groups_.params.StretchBound();
+    const bool to_fewest = groups_.params.target_charts == 0 && bound < kNoBound;
     Merge(bound);
-    // Every pair takes several flattenings: too long on large meshes; and Cut would not find the same darts
-    // on a surface as were found on a copy of it.
-    constexpr int kManyFaces = 50000;
-    static_assert(kManyFaces <= ChartParts<MeshType>::kFineFaces);
-    if (greedy_.MayMergeMore() && bound < kNoBound && groups_.parts.SurfaceFaceCount() <= kManyFaces)
-      MergeWithDarts();
-    if (groups_.params.target_charts == 0 && bound < kNoBound) Dissolve();
+    if (bound < kNoBound) MergeWithDarts();
+    if (to_fewest) {
+      Dissolve();
+      if (MayBeTooMany()) MergeAgain(bound);
+    }
     if (groups_.params.target_charts > 0 && greedy_.MayMergeMore()) Merge(kNoBound);
     Improve();
   }
@@ -57,6 +56,36 @@ class CheckedMerger {
       greedy_.ForgetFailures();
     }
     groups_.overlaps_stay = true;
+  }
+
+  // One chart is a large share of so many, and another order often saves it. Of more it seldom saves any, and
+  // small ones, ends of limbs, stay in any order.
+  bool MayBeTooMany() const {
+    constexpr double kSmall = 0.015;
+    constexpr int kFew = 3, kMany = 6;
+    int count = 0;
+    for (const auto& chart : groups_.charts) count += chart.alive && chart.area > kSmall;
+    return count > kFew && count <= kMany;
+  }
+
+  // In another order, where the first may have ended with more charts than there need be.
+  void MergeAgain(double bound) {
+    constexpr double kShare = 0.2;
+    const auto charts = groups_.charts;
+    const int alive = groups_.alive;
+    groups_.TakeApart();
+    greedy_.Restart();
+    groups_.seam_share = kShare;
+    Merge(bound);
+    Dissolve();
+    groups_.seam_share = 1;
+    if (groups_.alive < alive) {
+      MergeWithDarts();
+      Dissolve();
+    } else {
+      groups_.charts = charts;
+      groups_.alive = alive;
+    }
   }
 
   // Charts that can be given away in pieces, the smallest first.
@@ -181,6 +210,11 @@ class CheckedMerger {
 
   // Pairs that are above the bound together, but not with some darts, if seams don't get longer by that.
   void MergeWithDarts() {
+    // Every pair takes several flattenings: too long on large meshes; and Cut would not find the same darts
+    // on a surface as were found on a copy of it.
+    constexpr int kManyFaces = 50000;
+    static_assert(kManyFaces <= ChartParts<MeshType>::kFineFaces);
+    if (groups_.parts.SurfaceFaceCount() > kManyFaces) return;
     constexpr double kWorthTrying = 1.4;
     std::set<std::pair<int, int>> failed;
     while (greedy_.MayMergeMore()) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <queue>
+#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -40,7 +41,10 @@ class GreedyMerger {
   }
 
   /// The two are not to be merged.
-  void Refuse(int a, int b) { unions_[{a, b}].refused = true; }
+  void Refuse(int a, int b) { refused_.insert(groups_.PartsOfBoth(a, b)); }
+
+  /// After ChartGroups::TakeApart(). What was refused stays so.
+  void Restart() { unions_.clear(); }
 
   /// After groups.bound was raised: what exceeded it is tried again.
   void ForgetFailures() {
@@ -53,11 +57,14 @@ class GreedyMerger {
     bool tried = false;
     ChartTrial trial{};       // when tried
     double least_energy = 0;  // times area
-    bool refused = false;     // on the fine surface
   };
 
   bool MayMerge(int a, int b) const {
     return groups_.apart.empty() || groups_.MayStandTogether(groups_.PartsOfBoth(a, b));
+  }
+
+  bool IsRefused(int a, int b) const {
+    return !refused_.empty() && refused_.count(groups_.PartsOfBoth(a, b)) > 0;
   }
 
   void StartQueue() {
@@ -92,7 +99,7 @@ class GreedyMerger {
   // Queues a pair under what its merge costs, or costs at least, unless it is out of the question.
   void Push(int a, int b) {
     const Union& both = unions_[{a, b}];
-    if (both.refused || (both.tried && !both.trial.flat) || !MayMerge(a, b)) return;
+    if ((both.tried && !both.trial.flat) || !MayMerge(a, b) || IsRefused(a, b)) return;
     double saved = groups_.charts[a].borders[b];
     if (both.tried)
       saved -= groups_.CutLength(both.trial) - groups_.CutLength(groups_.charts[a].trial) -
@@ -109,7 +116,7 @@ class GreedyMerger {
     constexpr double kClearlyWithin = 0.5;
     if (both.trial.stretch - 1 > kClearlyWithin * (groups_.bound - 1) &&
         !TryChart(groups_.parts.FinePatch(groups_.PartsOfBoth(a, b)), groups_.bound, groups_.Poll()).flat) {
-      both.refused = true;
+      Refuse(a, b);
       return;
     }
     const int n = groups_.Join(a, b, both.trial);
@@ -134,6 +141,7 @@ class GreedyMerger {
 
   ChartGroups<MeshType>& groups_;
   std::map<std::pair<int, int>, Union> unions_;
+  std::set<std::vector<int>> refused_;                    // parts that failed on the fine surface
   using Item = std::tuple<bool, double, int, int, bool>;  // not tiny, cost, charts, whether it is exact
   std::priority_queue<Item, std::vector<Item>, std::greater<>> queue_;
 };

@@ -90,7 +90,7 @@ void FinishAtlas(Workspace& work, ChartIds& ids, SeamMask& seams, const KnownFla
              .Run(ids, seams,
                   params.density_by == DensityBy::kVertexQuality ? work.ReadDensity(progress)
                                                                  : std::vector<double>());
-    DropIneffectiveSeams(work.Surface(), seams);
+    DropSeamsNotIn(uv, work.Surface(), seams);
     work.ReleaseBorders(seams);
   }
   Stage stage("measure", "Measuring...", 0.97, 1, progress, change.report);

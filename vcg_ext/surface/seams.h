@@ -31,6 +31,15 @@ SeamMask SeamsOfTexcoords(const SurfaceGraph<MeshType>& surface, const WedgeTexc
   return seams;
 }
 
+/// Takes back seams that the texcoords don't show: very short ones, whose sides are one in float32.
+template <class MeshType>
+void DropSeamsNotIn(const WedgeTexcoords& uv, const SurfaceGraph<MeshType>& surface, SeamMask& seams) {
+  const SeamMask shown = SeamsOfTexcoords(surface, uv);
+  for (int h = 0; h < surface.HalfEdgeCount(); ++h)
+    if (surface.Opposite(h) >= 0 && !IsSeam(shown, h))
+      seams[h / 3] = static_cast<std::uint8_t>(seams[h / 3] & ~(1 << (h % 3)));
+}
+
 /// True when every face has three different, finite corners: what provisional and finished texcoords have,
 /// and the zeros of a mesh that never had any have not.
 inline bool LooksLikeTexcoords(const WedgeTexcoords& uv) {
