@@ -55,7 +55,8 @@ bool Overlap(const GridTriangle& a, const GridTriangle& b) {
   return !Separates(p, q) && !Separates(q, p);
 }
 
-std::vector<std::pair<int, int>> OverlappingPairs(const std::vector<GridTriangle>& triangles, size_t limit) {
+std::vector<std::pair<int, int>> OverlappingPairs(const std::vector<GridTriangle>& triangles, size_t limit,
+                                                  const std::function<void()>& poll) {
   std::vector<std::pair<int, int>> pairs;
   const int count = static_cast<int>(triangles.size());
   if (count < 2) return pairs;
@@ -88,10 +89,13 @@ std::vector<std::pair<int, int>> OverlappingPairs(const std::vector<GridTriangle
   std::vector<int> start(cells[0] * cells[1] + 1, 0);
   for (int t = 0; t < count; ++t) for_cells(t, [&](size_t cell) { ++start[cell + 1]; });
   for (size_t c = 1; c < start.size(); ++c) start[c] += start[c - 1];
+  if (poll) poll();
   std::vector<int> members(start.back()), fill(start.begin(), start.end() - 1);
   for (int t = 0; t < count; ++t) for_cells(t, [&](size_t cell) { members[fill[cell]++] = t; });
 
-  for (size_t cell = 0; cell + 1 < start.size(); ++cell)
+  constexpr size_t kPollEvery = 65536;  // cells
+  for (size_t cell = 0; cell + 1 < start.size(); ++cell) {
+    if (poll && cell % kPollEvery == 0) poll();
     for (int m = start[cell]; m < start[cell + 1]; ++m)
       for (int n = m + 1; n < start[cell + 1]; ++n) {
         const int i = members[m], j = members[n];
@@ -108,6 +112,7 @@ std::vector<std::pair<int, int>> OverlappingPairs(const std::vector<GridTriangle
           return pairs;
         }
       }
+  }
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }

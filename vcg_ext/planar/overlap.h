@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -20,8 +21,10 @@ std::int64_t TwiceArea(const GridTriangle& triangle);
 /// triangle without area overlaps nothing.
 bool Overlap(const GridTriangle& a, const GridTriangle& b);
 
-/// All overlapping pairs (i < j), at most `limit` of them, in increasing order.
-std::vector<std::pair<int, int>> OverlappingPairs(const std::vector<GridTriangle>& triangles, size_t limit);
+/// All overlapping pairs (i < j), at most `limit` of them, in increasing order. `poll` is called now and then
+/// and may throw.
+std::vector<std::pair<int, int>> OverlappingPairs(const std::vector<GridTriangle>& triangles, size_t limit,
+                                                  const std::function<void()>& poll = {});
 
 /// A chart's triangles on a grid of 2^28 cells over the longer side of their box.
 std::vector<GridTriangle> OnGrid(const Points2& uv, const Triangles& triangles);

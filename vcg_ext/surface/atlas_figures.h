@@ -99,7 +99,8 @@ void MeasureAtlas(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, co
 
   std::vector<char> overlaps(face_count, 0);
   constexpr size_t kEnough = 20'000'000;
-  for (const auto& [i, j] : OverlappingPairs(grid, kEnough)) overlaps[i] = overlaps[j] = 1;
+  for (const auto& [i, j] : OverlappingPairs(grid, kEnough, [&] { progress.Poll(); }))
+    overlaps[i] = overlaps[j] = 1;
   report.overlapping_faces = static_cast<int>(std::count(overlaps.begin(), overlaps.end(), 1));
 }
 

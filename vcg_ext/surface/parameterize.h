@@ -144,7 +144,7 @@ class Parameterizer {
       LayFlat(piece, params_.method, poll);
     }
     if (piece.flat)
-      piece.overlaps = OverlappingPairs(OnGrid(piece.uv, piece.patch.mesh.triangles), kMostOverlaps);
+      piece.overlaps = OverlappingPairs(OnGrid(piece.uv, piece.patch.mesh.triangles), kMostOverlaps, poll);
   }
 
   // Without a number of charts to keep to, no chart is to be above params.max_stretch.
@@ -393,6 +393,7 @@ class Parameterizer {
       x[cut.of_corner[h]] = to_grid(q.x());
       y[cut.of_corner[h]] = to_grid(q.y());
     }
+    progress_.Poll();
     std::vector<int> bad;
     for (int f : MendRoundedTriangles(cut.of_corner, x, y))
       if (surface_.Area(f) > 0) bad.push_back(ids[f]);
@@ -405,7 +406,7 @@ class Parameterizer {
       uv[h / 3][k] = static_cast<float>(x[v] / kTexcoordGrid);
       uv[h / 3][k + 1] = static_cast<float>(y[v] / kTexcoordGrid);
     }
-    for (const auto& [i, j] : OverlappingPairs(grid, kMostOverlaps)) {
+    for (const auto& [i, j] : OverlappingPairs(grid, kMostOverlaps, [&] { progress_.Poll(); })) {
       bad.push_back(ids[i]);
       bad.push_back(ids[j]);
     }

@@ -90,12 +90,14 @@ void FinishAtlas(Workspace& work, ChartIds& ids, SeamMask& seams, const KnownFla
              .Run(ids, seams,
                   params.density_by == DensityBy::kVertexQuality ? work.ReadDensity(progress)
                                                                  : std::vector<double>());
+    progress.Poll();
     DropSeamsNotIn(uv, work.Surface(), seams);
     work.ReleaseBorders(seams);
   }
   Stage stage("measure", "Measuring...", 0.97, 1, progress, change.report);
   work.WriteCharts(ids, change);
   work.WriteTexcoords(uv, change);
+  progress.Poll();
   work.WarnOfReplacedTexcoords(progress);
   change.remove_seams = true;
   ReportCharts(work, ids, seams, change.report);
