@@ -120,32 +120,44 @@ double MeanDifferenceOfRadii(const Shape& a, const Shape& b) {
   return sum / kSamples;
 }
 
+// Turns that lay the samples of one on those of the other, within `farthest` on the average, the best first.
+// Of all starting points along the loop these are the ones that fit better than those beside them.
+std::vector<Complex> LikelyTurns(const Shape& a, const Shape& b, double farthest) {
+  double squares = 0;
+  for (int s = 0; s < kSamples; ++s) squares += std::norm(a.samples[s]) + std::norm(b.samples[s]);
+  std::vector<Complex> sums(kSamples, 0);  // of products: the larger, the better the best turn is, conj(sum)
+  for (int shift = 0; shift < kSamples; ++shift)
+    for (int s = 0; s < kSamples; ++s)
+      sums[shift] += a.samples[(s + shift) % kSamples] * std::conj(b.samples[s]);
+  std::vector<std::pair<double, Complex>> fits;  // the less the first value, the better
+  for (int shift = 0; shift < kSamples; ++shift) {
+    const double size = std::abs(sums[shift]);
+    const double beside =
+        std::max(std::abs(sums[(shift + 1) % kSamples]), std::abs(sums[(shift + kSamples - 1) % kSamples]));
+    const double apart = std::sqrt(std::max(0.0, squares - 2 * size) / kSamples);
+    if (size > 0 && size >= beside && apart <= farthest)
+      fits.push_back({-size, std::conj(sums[shift]) / size});
+  }
+  std::sort(fits.begin(), fits.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+  constexpr size_t kMost = 8;  // round pieces fit in several ways
+  std::vector<Complex> turns;
+  for (size_t k = 0; k < std::min(kMost, fits.size()); ++k) turns.push_back(fits[k].second);
+  return turns;
+}
+
 bool AreCongruent(const Shape& a, const Shape& b, double tolerance) {
   constexpr double kOfSize = 0.03;
   const double most = std::min(tolerance, kOfSize * std::max(a.size, b.size));
   if (a.loops.size() != b.loops.size()) return false;
   if (std::abs(a.area - b.area) > most * std::max(a.length, b.length)) return false;
   if (std::abs(a.size - b.size) > 4 * most || MeanDifferenceOfRadii(a, b) > most) return false;
-  // Of all starting points along the loop the ones that fit best; the best turn of each is known.
-  double squares = 0;
-  for (int s = 0; s < kSamples; ++s) squares += std::norm(a.samples[s]) + std::norm(b.samples[s]);
   // Samples stand a step apart at most, and wavy outlines have them a little further on or back.
   const double farthest = 2 * most + 2 * std::max(a.length, b.length) / kSamples;
-  std::vector<std::pair<double, Complex>> turns;  // less fit first value: sum of products, larger is better
-  for (int shift = 0; shift < kSamples; ++shift) {
-    Complex sum = 0;
-    for (int s = 0; s < kSamples; ++s) sum += a.samples[(s + shift) % kSamples] * std::conj(b.samples[s]);
-    const double apart = std::sqrt(std::max(0.0, squares - 2 * std::abs(sum)) / kSamples);
-    if (std::abs(sum) > 0 && apart <= farthest)
-      turns.push_back({-std::abs(sum), std::conj(sum) / std::abs(sum)});
-  }
-  std::sort(turns.begin(), turns.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
-  constexpr size_t kTries = 8;  // round pieces fit in several ways
-  if (turns.size() > kTries) turns.resize(kTries);
+  const std::vector<Complex> turns = LikelyTurns(a, b, farthest);
   // Samples and corners don't lie in the same places: both turn and place are only about right.
   constexpr int kSteps = 4;
-  return std::any_of(turns.begin(), turns.end(), [&](const auto& turn) {
-    Pose pose{turn.second};
+  return std::any_of(turns.begin(), turns.end(), [&](const Complex& turn) {
+    Pose pose{turn};
     for (int step = 0; step < kSteps; ++step) pose = Better(a.samples, pose, b.loops);
     return FarthestCorner(a.loops, pose, b.loops) <= most &&
            FarthestCorner(b.loops, pose.Inverse(), a.loops) <= most;
