@@ -106,15 +106,12 @@ struct ChartGroups {
   /// for a larger one.
   const ChartTrial& Trial(const std::vector<int>& some) {
     static const ChartTrial kNotTried;
-    auto& [tried_bound, trial] = trials[some];
-    if (tried_bound == 0 && HoldsOverlap(some)) return kNotTried;
-    if (tried_bound == 0 || (!trial.flat && tried_bound < CoarseBound())) {
-      progress.Poll();
-      tried_bound = CoarseBound();
-      trial = TryChart(parts.CoarsePatch(some), tried_bound, Poll());
-      if (trial.overlaps) overlapping.push_back(some);
-    }
-    return trial;
+    const auto known = trials.find(some);
+    if (known != trials.end() && (known->second.second.flat || known->second.first >= CoarseBound()))
+      return known->second.second;
+    if (known == trials.end() && HoldsOverlap(some)) return kNotTried;
+    progress.Poll();
+    return Record(some, TryChart(parts.CoarsePatch(some), CoarseBound(), Poll()));
   }
 
   /// These parts are never to be a chart.
@@ -125,7 +122,7 @@ struct ChartGroups {
     std::vector<const std::vector<int>*> open;
     std::vector<ChartPatch> patches;
     for (const std::vector<int>& some : sets)
-      if (trials.find(some) == trials.end()) {
+      if (trials.find(some) == trials.end() && !HoldsOverlap(some)) {
         open.push_back(&some);
         patches.push_back(parts.CoarsePatch(some));
       }
@@ -133,10 +130,14 @@ struct ChartGroups {
     ParallelFor(static_cast<int>(open.size()), progress, [&](int k, const std::function<void()>& poll) {
       made[k] = TryChart(patches[k], CoarseBound(), poll);
     });
-    for (size_t k = 0; k < open.size(); ++k) {
-      trials[*open[k]] = {CoarseBound(), made[k]};
-      if (made[k].overlaps) overlapping.push_back(*open[k]);
-    }
+    for (size_t k = 0; k < open.size(); ++k) Record(*open[k], made[k]);
+  }
+
+  const ChartTrial& Record(const std::vector<int>& some, const ChartTrial& trial) {
+    if (trial.overlaps) overlapping.push_back(some);
+    auto& entry = trials[some];
+    entry = {CoarseBound(), trial};
+    return entry.second;
   }
 
   /// What overlaps itself still does with more around it, as nearly isometric maps hardly change by that;
