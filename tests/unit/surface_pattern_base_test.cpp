@@ -145,7 +145,9 @@ TEST(PatternBaseMesh, PaperKeepsNearerToTheModelThanFabric) {
     paper.MakeSymmetric(PatternMaterial::kPaper);
     fabric.MakeSymmetric(PatternMaterial::kFabric);
     EXPECT_EQ(paper.Halves().IsSymmetric(), height < 0.01) << height;
-    if (height < 0.01) EXPECT_TRUE(fabric.Halves().IsSymmetric()) << height;
+    if (height < 0.01) {
+      EXPECT_TRUE(fabric.Halves().IsSymmetric()) << height;
+    }
   }
 }
 

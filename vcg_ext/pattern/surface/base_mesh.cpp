@@ -17,7 +17,7 @@ namespace dcharts {
 void BaseMesh::Take(SurfaceData& here, SurfaceData mesh) {
   here = std::move(mesh);
   mesh_ = &here;
-  work_.emplace(here);
+  work_.emplace(here, poll_);
 }
 
 void BaseMesh::Coarsen(PatternMaterial material) {

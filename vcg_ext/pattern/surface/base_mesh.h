@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "common/surface_data.h"
 #include "pattern/pattern.h"
@@ -15,8 +17,13 @@ namespace dcharts {
 /// for it.
 class BaseMesh {
  public:
-  /// Throws Error for a mesh that is refused, see BuildSurface. `users` must outlive this.
-  explicit BaseMesh(const SurfaceData& users) : users_(users), mesh_(&users) { work_.emplace(users); }
+  /// Throws Error for a mesh that is refused, see BuildSurface. `users` must outlive this. `poll` is called
+  /// now and then and may throw.
+  explicit BaseMesh(
+      const SurfaceData& users, std::function<void()> poll = [] {})
+      : users_(users), mesh_(&users), poll_(std::move(poll)) {
+    work_.emplace(users, poll_);
+  }
 
   const SurfaceData& Mesh() const { return *mesh_; }
   Workspace& Work() { return *work_; }
@@ -39,6 +46,7 @@ class BaseMesh {
   const SurfaceData& users_;
   SurfaceData coarse_, symmetric_;
   const SurfaceData* mesh_;
+  const std::function<void()> poll_;
   std::optional<Workspace> work_;
   MirroredHalves halves_;
 };

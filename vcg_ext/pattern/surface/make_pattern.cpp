@@ -84,7 +84,8 @@ PatternResult PatternOfMesh(BaseMesh& base, const Params& params, double scale, 
 
 PatternResult MakePattern(const SurfaceData& mesh, const Params& params, Progress& progress) {
   const Params material = ForMaterial(params);
-  BaseMesh base(mesh);
+  progress.BeginStage("Reading the mesh...", 0, 0);
+  BaseMesh base(mesh, [&progress] { progress.Poll(); });
   constexpr double kMillimetresPerInch = 25.4;
   const double unit = params.units == LengthUnit::kInch ? kMillimetresPerInch : 1;
   const double model_side = LongestSide(mesh);
