@@ -21,6 +21,13 @@ inline bool IsSeam(const SeamMask& seams, int half_edge) {
 inline void SetSeam(SeamMask& seams, int half_edge) {
   seams[half_edge / 3] = static_cast<std::uint8_t>(seams[half_edge / 3] | 1 << (half_edge % 3));
 }
+/// A side of an edge is no seam any more.
+inline void ClearSeam(SeamMask& seams, int half_edge) {
+  seams[half_edge / 3] = static_cast<std::uint8_t>(seams[half_edge / 3] & ~(1 << (half_edge % 3)));
+}
+inline void MarkSeam(SeamMask& seams, int half_edge, bool is_seam) {
+  is_seam ? SetSeam(seams, half_edge) : ClearSeam(seams, half_edge);
+}
 
 /// Face quality as users and other tools write it: an integer to within 0.01, at least 0; all else is
 /// unassigned.

@@ -323,8 +323,7 @@ class Parameterizer {
       faces.push_back(f);
       for (int h = 3 * f; h < 3 * f + 3; ++h) {
         const int g = surface_.Neighbour(h);
-        if (g >= 0 && ids[g] != ids[f] && (ids[g] == c || ids[g] == d))
-          joined[f] = static_cast<std::uint8_t>(joined[f] & ~(1 << (h % 3)));
+        if (g >= 0 && ids[g] != ids[f] && (ids[g] == c || ids[g] == d)) ClearSeam(joined, h);
       }
     }
     Piece piece{PatchExtractor<MeshType>(surface_, joined).Extract(faces)};

@@ -36,8 +36,7 @@ template <class MeshType>
 void DropSeamsNotIn(const WedgeTexcoords& uv, const SurfaceGraph<MeshType>& surface, SeamMask& seams) {
   const SeamMask shown = SeamsOfTexcoords(surface, uv);
   for (int h = 0; h < surface.HalfEdgeCount(); ++h)
-    if (surface.Opposite(h) >= 0 && !IsSeam(shown, h))
-      seams[h / 3] = static_cast<std::uint8_t>(seams[h / 3] & ~(1 << (h % 3)));
+    if (surface.Opposite(h) >= 0 && !IsSeam(shown, h)) ClearSeam(seams, h);
 }
 
 /// True when every face has three different, finite corners: what provisional and finished texcoords have,
@@ -75,7 +74,7 @@ void DropIneffectiveSeams(const SurfaceGraph<MeshType>& surface, SeamMask& seams
     const int o = surface.Opposite(h);
     if (o < 0 || !IsSeam(seams, h)) continue;
     if (cut.of_corner[h] == cut.of_corner[Next(o)] && cut.of_corner[Next(h)] == cut.of_corner[o])
-      for (int k : {h, o}) seams[k / 3] = static_cast<std::uint8_t>(seams[k / 3] & ~(1 << (k % 3)));
+      for (int k : {h, o}) ClearSeam(seams, k);
   }
 }
 

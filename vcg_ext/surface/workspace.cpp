@@ -91,7 +91,7 @@ WedgeTexcoords Workspace::ReadTexcoords() const {
 bool Workspace::ReadSeams(const ChartIds& ids, SeamMask& seams) {
   const auto drop_borders = [&] {  // a border is no seam
     for (int h = 0; h < surface_.HalfEdgeCount(); ++h)
-      if (surface_.Opposite(h) < 0) seams[h / 3] = static_cast<std::uint8_t>(seams[h / 3] & ~(1 << (h % 3)));
+      if (surface_.Opposite(h) < 0) ClearSeam(seams, h);
   };
   if (!data_.seams.empty()) {
     SeamMask kept;

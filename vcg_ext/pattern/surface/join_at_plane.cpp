@@ -10,7 +10,6 @@
 
 #include "common/parallel.h"
 #include "common/union_find.h"
-#include "pattern/surface/seam_marks.h"
 #include "planar/flatten.h"
 #include "planar/overlap.h"
 #include "surface/chart_patch.h"

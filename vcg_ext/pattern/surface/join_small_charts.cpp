@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "pattern/least_piece.h"
-#include "pattern/surface/seam_marks.h"
 #include "planar/flatten.h"
 #include "planar/overlap.h"
+#include "surface/charts.h"
 
 namespace dcharts {
 

@@ -7,9 +7,9 @@
 #include "common/parallel.h"
 #include "pattern/equal_seams.h"
 #include "pattern/surface/patch_darts.h"
-#include "pattern/surface/seam_marks.h"
 #include "planar/flatten.h"
 #include "planar/overlap.h"
+#include "surface/charts.h"
 
 namespace dcharts {
 namespace {

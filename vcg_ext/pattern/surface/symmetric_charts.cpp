@@ -8,7 +8,6 @@
 
 #include "pattern/surface/charts_for_pattern.h"
 #include "pattern/surface/join_at_plane.h"
-#include "pattern/surface/seam_marks.h"
 #include "surface/chart_patch.h"
 #include "surface/chart_trial.h"
 #include "surface/cut.h"
