@@ -68,11 +68,9 @@ bool Plugin2020::applyFilter(QAction* action, MeshDocument& document, const Rich
     return callback == nullptr || callback(percent, text);
   };
   const auto write_log = [this](const std::string& line) { Log(line); };
-  const auto tell = [&](const Report& report) {
-    for (const std::string& line : LogLines(report)) write_log(line);
-  };
+  const auto no_figures = [](const Report&) {};
   try {
-    RunOnDocument<Host>(SpecOf(ID(action)), parameters, document, progress, write_log, tell);
+    RunOnDocument<Host>(SpecOf(ID(action)), parameters, document, progress, write_log, no_figures);
     return true;
   } catch (const Error& error) {
     errorMessage = QString::fromUtf8(error.what());

@@ -79,7 +79,6 @@ std::map<std::string, QVariant> Plugin2025::applyFilter(const QAction* action,
   const auto write_log = [this](const std::string& line) { log(line); };
   std::map<std::string, QVariant> figures;
   const auto tell = [&](const Report& report) {
-    for (const std::string& line : LogLines(report)) write_log(line);
     for (const auto& [name, value] : Figures(report))
       figures[name] = std::visit([](auto number) { return QVariant(number); }, value);
   };

@@ -104,9 +104,9 @@ void AddLayer(Document& document, const char* name, Fill fill) {
 
 /// Runs the filter on the document's current mesh and writes the result at the end; a new layer does not
 /// become the current one. Host::UpdateBox(model) finishes a new layer, Host::RemoveLayer(document, model)
-/// removes it, Host::Texture(model, name) is a texture's image. `tell` gets the report before anything is
-/// written, since telling may need memory that is not there. Throws Error and Cancelled, nothing else; then
-/// the document is unchanged.
+/// removes it, Host::Texture(model, name) is a texture's image. The report is logged, and given to
+/// `tell`, before anything is written, since that may need memory that is not there. Throws Error and
+/// Cancelled, nothing else; then the document is unchanged.
 template <class Host, class Document, class List, class Tell>
 void RunOnDocument(const FilterSpec& filter, const List& list, Document& document,
                    const Progress::Callback& callback, const Progress::Logger& log, const Tell& tell) {
@@ -121,6 +121,7 @@ void RunOnDocument(const FilterSpec& filter, const List& list, Document& documen
       if (params.print_texture) ReadColors<Host>(*model, surface);
     }
     const SurfaceChange change = RunFilter(filter, model != nullptr ? &surface : nullptr, params, progress);
+    for (const std::string& line : LogLines(change.report)) log(line);
     tell(change.report);
 
     SurfaceWriter writer(*model, change);
