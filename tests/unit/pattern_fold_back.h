@@ -47,6 +47,14 @@ inline GluedPaper Glue(const SurfaceData& mesh, const Pattern& pattern) {
   return paper;
 }
 
+/// Every point belongs at the nearest place of that mesh, which the pattern was made for, but not on.
+inline void BringTo(const FaceTree& model, GluedPaper& paper) {
+  for (int v = 0; v < static_cast<int>(paper.model.vertices.size()); ++v) {
+    const Eigen::Vector3d p = model.Find(PositionOf(paper.model, v)).point;
+    paper.model.vertices[v] = {p.x(), p.y(), p.z()};
+  }
+}
+
 /// Each triangle in four, so that the paper can bend between the model's edges, too. `folded` gets places for
 /// the new points.
 inline GluedPaper Refined(const GluedPaper& paper, Eigen::MatrixX3d& folded) {
@@ -216,20 +224,25 @@ inline double HausdorffDistance(const SurfaceData& a, const SurfaceData& b) {
   return farthest;
 }
 
-/// Of a pattern made on the faces of `mesh`.
-inline FoldedBack FoldBack(const SurfaceData& mesh, const Pattern& pattern) {
+/// Of a pattern made on the faces of `mesh`, which stands for `model`.
+inline FoldedBack FoldBack(const SurfaceData& mesh, const Pattern& pattern, SurfaceData model) {
   constexpr int kSteps = 60, kFineSteps = 12;
+  for (auto& v : model.vertices)
+    for (double& x : v) x *= pattern.scale;
+  const FaceTree tree(model);
   GluedPaper paper = Glue(mesh, pattern);
+  BringTo(tree, paper);
   PaperFolder coarse(paper);
   Eigen::MatrixX3d folded = coarse.AtModel();
   coarse.Fold(kSteps, folded);
   paper = Refined(paper, folded);
+  BringTo(tree, paper);
   PaperFolder fine(paper);
   fine.Fold(kFineSteps, folded);
   SurfaceData at = paper.model;
   for (size_t v = 0; v < at.vertices.size(); ++v)
     for (int d : {0, 1, 2}) at.vertices[v][d] = folded(static_cast<Eigen::Index>(v), d);
-  return {fine.Strain(folded), HausdorffDistance(at, paper.model) / LongestSide(paper.model)};
+  return {fine.Strain(folded), HausdorffDistance(at, model) / LongestSide(model)};
 }
 
 }  // namespace dcharts::test

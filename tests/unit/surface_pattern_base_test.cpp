@@ -135,6 +135,15 @@ TEST(PatternBaseMesh, ABishopBecomesSymmetricOfEitherMaterial) {
   }
 }
 
+// At an end of its slit the halves differ by .82 % of the size.
+TEST(PatternBaseMesh, WhereHalvesDifferBothGiveWay) {
+  const SurfaceData bishop = shapes::Bishop();
+  BaseMesh base(bishop);
+  base.MakeSymmetric(PatternMaterial::kPaper);
+  ASSERT_TRUE(base.Halves().IsSymmetric());
+  EXPECT_TRUE(AreSameShape(bishop, base.Mesh(), {0.0045 * LongestSide(bishop), 0.002}));
+}
+
 TEST(PatternBaseMesh, PaperKeepsNearerToTheModelThanFabric) {
   for (const double height : {0.0, 1e-3, 0.02}) {
     SurfaceData model = shapes::Torus(16);  // 2.8 wide, edges of 0.15

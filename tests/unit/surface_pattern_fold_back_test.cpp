@@ -2,7 +2,10 @@
 /// Paper folded and glued is the model again.
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "dcharts.h"
+#include "pattern/surface/base_mesh.h"
 #include "pattern_fold_back.h"
 #include "shapes.h"
 
@@ -13,6 +16,9 @@ struct Folded {
   const char* shape;
   double strain, hausdorff;  // at most
 };
+
+// For the test's name.
+std::string ShapeOf(const testing::TestParamInfo<Folded>& test) { return test.param.shape; }
 
 class PatternFoldedBack : public testing::TestWithParam<Folded> {};
 
@@ -25,11 +31,15 @@ PatternResult OfPaper(const SurfaceData& mesh) {
   return MakePattern(mesh, params, progress);
 }
 
+void RecordFolded(const test::FoldedBack& folded) {
+  testing::Test::RecordProperty("strain_percent", std::to_string(100 * folded.strain));
+  testing::Test::RecordProperty("hausdorff_percent", std::to_string(100 * folded.hausdorff));
+}
+
 TEST_P(PatternFoldedBack, IsTheModelAgain) {
   const SurfaceData mesh = shapes::ShapeByName(GetParam().shape).mesh;
-  const test::FoldedBack folded = test::FoldBack(mesh, OfPaper(mesh).pattern);
-  RecordProperty("strain_percent", std::to_string(100 * folded.strain));
-  RecordProperty("hausdorff_percent", std::to_string(100 * folded.hausdorff));
+  const test::FoldedBack folded = test::FoldBack(mesh, OfPaper(mesh).pattern, mesh);
+  RecordFolded(folded);
   EXPECT_LT(folded.strain, GetParam().strain);
   EXPECT_LT(folded.hausdorff, GetParam().hausdorff);
 }
@@ -41,7 +51,25 @@ INSTANTIATE_TEST_SUITE_P(Meshes, PatternFoldedBack,
                                          Folded{"spherical_cap", 0.005, 0.005}, Folded{"torus", 0.003, 0.005},
                                          Folded{"bishop", 0.002, 0.005}, Folded{"cad_part", 0.0025, 0.005},
                                          Folded{"plush", 0.002, 0.005}),
-                         [](const auto& test) { return std::string(test.param.shape); });
+                         ShapeOf);
+
+// Of models that are symmetric but for their triangles, patterns are made on an exactly symmetric mesh.
+class PatternOfSymmetricMeshFoldedBack : public testing::TestWithParam<Folded> {};
+
+TEST_P(PatternOfSymmetricMeshFoldedBack, IsTheUsersModelAgain) {
+  const SurfaceData mesh = shapes::ShapeByName(GetParam().shape).mesh;
+  BaseMesh base(mesh);
+  base.MakeSymmetric(PatternMaterial::kPaper);
+  ASSERT_TRUE(base.Halves().IsSymmetric());
+  const test::FoldedBack folded = test::FoldBack(base.Mesh(), OfPaper(base.Mesh()).pattern, mesh);
+  RecordFolded(folded);
+  EXPECT_LT(folded.strain, GetParam().strain);
+  EXPECT_LT(folded.hausdorff, GetParam().hausdorff);
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, PatternOfSymmetricMeshFoldedBack,
+                         testing::Values(Folded{"bishop", 0.002, 0.005}, Folded{"plush", 0.002, 0.005}),
+                         ShapeOf);
 
 // Paper that is too small must stretch, or be elsewhere: the folding can't hide it.
 TEST(PatternFolding, TellsPiecesThatDoNotFit) {
@@ -50,7 +78,7 @@ TEST(PatternFolding, TellsPiecesThatDoNotFit) {
   constexpr double kSmaller = 0.97;
   for (Piece& piece : pattern.pieces)
     for (Point2& p : piece.flat.vertices) p *= kSmaller;
-  EXPECT_GT(test::FoldBack(mesh, pattern).strain, 0.005);
+  EXPECT_GT(test::FoldBack(mesh, pattern, mesh).strain, 0.005);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "pattern/surface/coarse_mesh.h"
 #include "pattern/surface/data_coordinates.h"
+#include "pattern/surface/meet_halfway.h"
 #include "pattern/surface/mirror_plane.h"
 #include "pattern/surface/same_shape.h"
 #include "pattern/surface/symmetric_mesh.h"
@@ -51,7 +52,9 @@ void BaseMesh::MakeSymmetric(PatternMaterial material) {
   const auto mirror = FindMirrorPlane(Surface());
   if (!mirror) return;
   SymmetricMesh symmetric = MakeSymmetricMesh(*mesh_, Surface(), *mirror);
-  if (!AreSameShape(*mesh_, symmetric.mesh, LimitsOfSymmetry(material))) return;
+  const ShapeLimits limits = LimitsOfSymmetry(material);
+  if (!AreSameShape(*mesh_, symmetric.mesh, limits)) return;
+  MeetHalfway(*mesh_, limits.distance, mirror->normal, symmetric);
   Take(symmetric_, std::move(symmetric.mesh));
   halves_ = symmetric.halves;
 }

@@ -81,8 +81,10 @@ void FaceTree::Search(int index, const Vector3d& p, const Vector3d& normal, Near
       const int f = order_[k];
       constexpr double kAboutTheSame = 0.3;  // cosine
       if (!normal.isZero(0) && faces_[f].normal.dot(normal) < kAboutTheSame) continue;
-      const double distance = (p - NearestOnTriangle(p, faces_[f].corners, faces_[f].normal)).norm();
-      if (distance < best.distance || (distance == best.distance && f < best.face)) best = {f, distance};
+      const Vector3d point = NearestOnTriangle(p, faces_[f].corners, faces_[f].normal);
+      const double distance = (p - point).norm();
+      if (distance < best.distance || (distance == best.distance && f < best.face))
+        best = {f, distance, point};
     }
     return;
   }
@@ -93,13 +95,15 @@ void FaceTree::Search(int index, const Vector3d& p, const Vector3d& normal, Near
 }
 
 FaceTree::Nearest FaceTree::Find(const Vector3d& p) const {
-  Nearest best{-1, std::numeric_limits<double>::infinity()};
+  Nearest best;
+  best.distance = std::numeric_limits<double>::infinity();
   Search(0, p, Vector3d::Zero(), best);
   return best;
 }
 
 FaceTree::Nearest FaceTree::FindFacing(const Vector3d& p, const Vector3d& normal) const {
-  Nearest best{-1, std::numeric_limits<double>::infinity()};
+  Nearest best;
+  best.distance = std::numeric_limits<double>::infinity();
   Search(0, p, normal, best);
   return best.face >= 0 ? best : Find(p);
 }

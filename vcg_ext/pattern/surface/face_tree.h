@@ -19,6 +19,7 @@ class FaceTree {
   struct Nearest {
     int face = -1;
     double distance = 0;
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< of the face
   };
 
   Nearest Find(const Eigen::Vector3d& p) const;
