@@ -47,12 +47,31 @@ inline GluedPaper Glue(const SurfaceData& mesh, const Pattern& pattern) {
   return paper;
 }
 
-/// Every point belongs at the nearest place of that mesh, which the pattern was made for, but not on.
-inline void BringTo(const FaceTree& model, GluedPaper& paper) {
-  for (int v = 0; v < static_cast<int>(paper.model.vertices.size()); ++v) {
-    const Eigen::Vector3d p = model.Find(PositionOf(paper.model, v)).point;
-    paper.model.vertices[v] = {p.x(), p.y(), p.z()};
-  }
+/// Has every point belong at the nearest place of `model`, which the pattern was made for, but not on; and
+/// where a tip of it is far from all those places, the point next to it nearly at the tip.
+inline void BringTo(const SurfaceData& model, GluedPaper& paper) {
+  constexpr double kFar = 0.0035, kNear = 0.001;  // of the model's size
+  const FaceTree tree(model);
+  const auto bring = [&](int point, const Eigen::Vector3d& p) {
+    paper.model.vertices[point] = {p.x(), p.y(), p.z()};
+  };
+  for (int v = 0; v < static_cast<int>(paper.model.vertices.size()); ++v)
+    bring(v, tree.Find(PositionOf(paper.model, v)).point);
+  const SurfaceData brought = paper.model;
+  const FaceTree brought_tree(brought);
+  const double far = kFar * LongestSide(model), near = kNear * LongestSide(model);
+  for (const auto& face : model.faces)
+    for (int tip : face) {
+      const Eigen::Vector3d p = PositionOf(model, tip);
+      const auto nearest = brought_tree.Find(p);
+      if (nearest.distance < far) continue;
+      const auto is_nearer = [&](int v, int w) {
+        return (PositionOf(brought, v) - p).norm() < (PositionOf(brought, w) - p).norm();
+      };
+      const auto& corners = brought.faces[nearest.face];
+      const int v = *std::min_element(corners.begin(), corners.end(), is_nearer);
+      bring(v, PositionOf(brought, v) + (1 - near / nearest.distance) * (p - nearest.point));
+    }
 }
 
 /// Each triangle in four, so that the paper can bend between the model's edges, too. `folded` gets places for
@@ -137,7 +156,7 @@ class PaperFolder {
 
  private:
   static constexpr double kShortest = 0.2;  // mm
-  static constexpr double kFree = 0.0037;   // of the model's size
+  static constexpr double kFree = 0.0033;   // of the model's size
   static constexpr double kHeld = 1e-3;     // against a spring of the mean length
   static constexpr int kHalfPower = 6;      // of the distance: so high that it is much like a wall
   struct Spring {
@@ -229,14 +248,13 @@ inline FoldedBack FoldBack(const SurfaceData& mesh, const Pattern& pattern, Surf
   constexpr int kSteps = 60, kFineSteps = 12;
   for (auto& v : model.vertices)
     for (double& x : v) x *= pattern.scale;
-  const FaceTree tree(model);
   GluedPaper paper = Glue(mesh, pattern);
-  BringTo(tree, paper);
+  BringTo(model, paper);
   PaperFolder coarse(paper);
   Eigen::MatrixX3d folded = coarse.AtModel();
   coarse.Fold(kSteps, folded);
   paper = Refined(paper, folded);
-  BringTo(tree, paper);
+  BringTo(model, paper);
   PaperFolder fine(paper);
   fine.Fold(kFineSteps, folded);
   SurfaceData at = paper.model;
