@@ -28,8 +28,7 @@ class ChartParts {
   /// merges is best, not only which will do; that takes more faces.
   ChartParts(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, bool rank,
              int fine_faces = kFineFaces, const std::function<void()>& poll = {})
-      : face_count_(surface.FaceCount()),
-        area_(ChartCount(ids), 0),
+      : area_(ChartCount(ids), 0),
         borders_(area_.size()),
         unit_(std::sqrt(surface.TotalArea())),
         fine_(surface, ids, fine_faces, poll),
@@ -59,7 +58,6 @@ class ChartParts {
   ChartPatch FinePatch(const std::vector<int>& parts) { return Patch(parts, fine_); }
   const CoarseCopy& Fine() const { return fine_; }
   int PartOfFine(int face) const { return fine_.Ids()[face]; }
-  int SurfaceFaceCount() const { return face_count_; }
 
  private:
   static constexpr int kCoarseFaces = 3000, kFacesPerPart = 50, kFacesToRank = 100;
@@ -72,7 +70,6 @@ class ChartParts {
     return copy.Extract(faces);
   }
 
-  int face_count_;
   std::vector<double> area_;
   std::vector<std::map<int, double>> borders_;
   std::set<std::pair<int, int>> kept_apart_;

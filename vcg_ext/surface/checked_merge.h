@@ -210,11 +210,6 @@ class CheckedMerger {
 
   // Pairs that are above the bound together, but not with some darts, if seams don't get longer by that.
   void MergeWithDarts() {
-    // Every pair takes several flattenings: too long on large meshes; and Cut would not find the same darts
-    // on a surface as were found on a copy of it.
-    constexpr int kManyFaces = 50000;
-    static_assert(kManyFaces <= ChartParts<MeshType>::kFineFaces);
-    if (groups_.parts.SurfaceFaceCount() > kManyFaces) return;
     constexpr double kWorthTrying = 1.4;
     std::set<std::pair<int, int>> failed;
     while (greedy_.MayMergeMore()) {
