@@ -56,7 +56,7 @@ double FirstFlip(const Triangles& triangles, const PlanePoints& uv, const PlaneP
   return first;
 }
 
-bool SearchLine(const StretchEnergy& energy, const Triangles& triangles, const RestShapes& shapes,
+bool SearchLine(const std::function<double(const PlanePoints&)>& value_of, const Triangles& triangles,
                 const PlanePoints& direction, double slope, double longest_step, PlanePoints& uv,
                 double& value) {
   double step = std::min(longest_step, kShareOfWayToFlip * FirstFlip(triangles, uv, direction));
@@ -64,7 +64,7 @@ bool SearchLine(const StretchEnergy& energy, const Triangles& triangles, const R
   double best_value = value;
   for (int halving = 0; halving < kMaxHalvings; ++halving, step *= 0.5) {
     for (std::size_t v = 0; v < uv.size(); ++v) trial[v] = uv[v] + step * direction[v];
-    const double trial_value = MapEnergy(energy, triangles, shapes, trial);
+    const double trial_value = value_of(trial);
     if (trial_value < best_value && trial_value <= value + kArmijo * step * slope) {
       best.swap(trial);
       trial.resize(uv.size());

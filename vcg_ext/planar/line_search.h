@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+
 #include "planar/chart_mesh.h"
 #include "planar/complex_plane.h"
+#include "planar/rest_shapes.h"
 #include "planar/stretch_energy.h"
 
 namespace dcharts {
@@ -16,10 +19,10 @@ double MapEnergy(const StretchEnergy& energy, const Triangles& triangles, const 
 double FirstFlip(const Triangles& triangles, const PlanePoints& uv, const PlanePoints& direction);
 
 /// Moves `uv` along `direction`, at most `longest_step` and 0.9 of the way to the first flip, halved until
-/// the energy falls enough (Armijo), and further down to 1 while that lowers it more. `slope` is the energy's
-/// derivative along the direction (< 0), `value` its value, replaced by the new one. False, and nothing
-/// moved, when it falls nowhere.
-bool SearchLine(const StretchEnergy& energy, const Triangles& triangles, const RestShapes& shapes,
+/// the energy falls enough (Armijo), and further down to 1 while that lowers it more. `value_of` is the
+/// energy of a map, `slope` its derivative along the direction (< 0), `value` that of `uv`, replaced by the
+/// new one. False, and nothing moved, when it falls nowhere.
+bool SearchLine(const std::function<double(const PlanePoints&)>& value_of, const Triangles& triangles,
                 const PlanePoints& direction, double slope, double longest_step, PlanePoints& uv,
                 double& value);
 

@@ -41,16 +41,31 @@ PlanePoints Assemble(const StretchEnergy& energy, StepKind step, const Triangles
   return gradient;
 }
 
+void AddPulls(const VertexPulls& pulls, const PlanePoints& uv, VertexBlockSystem& system,
+              PlanePoints& gradient) {
+  for (const VertexPull& pull : pulls) {
+    const double x = pull.direction.real(), y = pull.direction.imag(), k = pull.stiffness;
+    gradient[pull.vertex] += k * pull.Off(uv) * pull.direction;
+    system.AddDiagonal(static_cast<Eigen::Index>(pull.vertex),
+                       Block2{k * x * x, k * x * y, k * x * y, k * y * y});
+  }
+}
+
 }  // namespace
 
 double Descend(const StretchEnergy& energy, const DescentOptions& options, const Triangles& triangles,
                const RestShapes& shapes, VertexBlockSystem& system, const std::function<void()>& poll,
                PlanePoints& uv) {
-  double value = MapEnergy(energy, triangles, shapes, uv);
+  const auto value_of = [&](const PlanePoints& map) {
+    const double of_map = MapEnergy(energy, triangles, shapes, map);
+    return options.pulls == nullptr ? of_map : of_map + PullEnergy(*options.pulls, map);
+  };
+  double value = value_of(uv);
   PlanePoints right_hand_side(uv.size());
   for (int step = 0; step < options.max_steps; ++step) {
     if (poll) poll();
-    const PlanePoints gradient = Assemble(energy, options.step, triangles, shapes, uv, system);
+    PlanePoints gradient = Assemble(energy, options.step, triangles, shapes, uv, system);
+    if (options.pulls != nullptr) AddPulls(*options.pulls, uv, system, gradient);
     for (std::size_t v = 0; v < uv.size(); ++v) right_hand_side[v] = -gradient[v];
     bool moved = false;
     double slope = 0;
@@ -63,7 +78,7 @@ double Descend(const StretchEnergy& energy, const DescentOptions& options, const
       for (std::size_t v = 0; v < uv.size(); ++v) slope += Dot(gradient[v], direction[v]);
       if (!(slope < 0) || !std::isfinite(slope)) continue;
       if (-slope <= kNothingToGain || value + slope > options.bound) return value;
-      moved = SearchLine(energy, triangles, shapes, direction, slope, options.longest_step, uv, value);
+      moved = SearchLine(value_of, triangles, direction, slope, options.longest_step, uv, value);
       if (-0.5 * slope <= options.tolerance * value || value <= options.enough) return value;
     }
     if (!moved) return value;

@@ -8,6 +8,7 @@
 #include "planar/complex_plane.h"
 #include "planar/stretch_energy.h"
 #include "planar/vertex_block_system.h"
+#include "planar/vertex_pull.h"
 
 namespace dcharts {
 
@@ -24,6 +25,7 @@ struct DescentOptions {
   double enough = 0;        ///< stop when the energy has come down to this
   /// Stop before a step that could gain twice of what it promises and still be above this.
   double bound = std::numeric_limits<double>::infinity();
+  const VertexPulls* pulls = nullptr;  ///< are part of the energy; may be null
 };
 
 /// Lowers the energy of `uv` without flipping a triangle and returns the energy reached. All areas must be

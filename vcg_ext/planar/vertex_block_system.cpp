@@ -94,6 +94,14 @@ void VertexBlockSystem::AddDiagonal(Eigen::Index vertex, double value) {
   matrix_.diagonal[At(place_[At(vertex)])].diagonal().array() += value;
 }
 
+void VertexBlockSystem::AddDiagonal(Eigen::Index vertex, const Block2& block) {
+  Eigen::Matrix2d& to = matrix_.diagonal[At(place_[At(vertex)])];
+  to(0, 0) += block.m00;
+  to(1, 0) += block.m10;
+  to(0, 1) += block.m01;
+  to(1, 1) += block.m11;
+}
+
 void VertexBlockSystem::Regularize(double factor) {
   double sum = 0;
   for (const int place : place_) sum += matrix_.diagonal[At(place)].trace();

@@ -37,6 +37,7 @@ class VertexBlockSystem {
 
   /// Adds to the diagonal of one vertex.
   void AddDiagonal(Eigen::Index vertex, double value);
+  void AddDiagonal(Eigen::Index vertex, const Block2& block);
 
   /// Adds `factor` times the mean of the diagonal to all of the diagonal.
   void Regularize(double factor);

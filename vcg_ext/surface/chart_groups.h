@@ -195,8 +195,13 @@ struct ChartGroups {
   }
 
   /// No two of these parts are to be kept apart.
-  bool MayStandTogether(const std::vector<int>& some) const {
-    return std::none_of(apart.begin(), apart.end(), [&](const std::pair<int, int>& pair) {
+  bool MayStandTogether(const std::vector<int>& some) const { return !HoldPair(some, apart); }
+
+  /// There is a kept border between two of these parts.
+  bool HoldKeptBorder(const std::vector<int>& some) const { return HoldPair(some, parts.KeptApart()); }
+
+  static bool HoldPair(const std::vector<int>& some, const std::set<std::pair<int, int>>& pairs) {
+    return std::any_of(pairs.begin(), pairs.end(), [&](const std::pair<int, int>& pair) {
       return std::binary_search(some.begin(), some.end(), pair.first) &&
              std::binary_search(some.begin(), some.end(), pair.second);
     });

@@ -18,18 +18,32 @@ ChartPatch Opened(const ChartPatch& patch, double& cut_length) {
   return open;
 }
 
-ChartTrial TryChart(const ChartPatch& patch, double bound, const std::function<void()>& poll) {
+namespace {
+
+ChartTrial Try(const ChartPatch& patch, const TrialOptions& options, const std::function<void()>& poll) {
   ChartTrial trial;
   const ChartPatch open = Opened(patch, trial.cut_length);
-  TrialOptions options;
-  options.l2_bound = bound;
-  options.no_overlap = true;
   const TrialFlattening flat = TrialFlatten(open.mesh, options, poll);
   trial.stretch = flat.l2_stretch;
   trial.energy = flat.energy;
   trial.overlaps = flat.overlaps >= kClearOverlap;
   trial.flat = flat.ok;
   return trial;
+}
+
+}  // namespace
+
+ChartTrial TryChart(const ChartPatch& patch, double bound, const std::function<void()>& poll) {
+  TrialOptions options;
+  options.l2_bound = bound;
+  options.no_overlap = true;
+  return Try(patch, options, poll);
+}
+
+ChartTrial TryChartWithOverlaps(const ChartPatch& patch, double bound, const std::function<void()>& poll) {
+  TrialOptions options;
+  options.l2_bound = bound;
+  return Try(patch, options, poll);
 }
 
 }  // namespace dcharts

@@ -25,4 +25,7 @@ ChartPatch Opened(const ChartPatch& patch, double& cut_length);
 /// the L2 stretch is sure to stay above `bound`. `poll` may throw to stop the work.
 ChartTrial TryChart(const ChartPatch& patch, double bound, const std::function<void()>& poll);
 
+/// The same, but whether it overlaps itself is not asked.
+ChartTrial TryChartWithOverlaps(const ChartPatch& patch, double bound, const std::function<void()>& poll);
+
 }  // namespace dcharts

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/parallel.h"
+#include "planar/lay_apart.h"
 #include "planar/overlap.h"
 #include "planar/trial_flatten.h"
 #include "surface/chart_groups.h"
@@ -29,10 +30,11 @@ class CheckedMerger {
     const double bound = groups_.params.StretchBound();
     const bool to_fewest = groups_.params.target_charts == 0 && bound < kNoBound;
     Merge(bound);
-    if (bound < kNoBound) MergeWithDarts();
+    if (bound < kNoBound) MergeWithDarts(Effort::kUsual);
     if (to_fewest) {
       Dissolve();
       if (MayBeTooMany()) MergeAgain(bound);
+      if (IsWorthMostEffort()) MergeWithDarts(Effort::kMost);
     }
     if (groups_.params.target_charts > 0 && greedy_.MayMergeMore()) Merge(kNoBound);
     Improve();
@@ -40,6 +42,10 @@ class CheckedMerger {
 
  private:
   static constexpr double kNoBound = ChartGroups<MeshType>::kNoBound;
+  static constexpr double kWorthTrying = 1.4;  // the L2 stretch without darts
+
+  // With most effort a pair gets more darts, and is drawn apart where it laps over itself.
+  enum class Effort { kUsual, kMost };
 
   // Merges until done, then has all charts checked on the fine surface; those that fail there are taken
   // apart, and merging goes on with other pairs.
@@ -68,6 +74,13 @@ class CheckedMerger {
     return count > kFew && count <= kMany;
   }
 
+  // What each try costs is little beside what one chart of a few is worth.
+  bool IsWorthMostEffort() const {
+    constexpr int kFew = 3, kMany = 8;
+    return groups_.alive > kFew && groups_.alive <= kMany &&
+           groups_.params.method == FlattenMethod::kStretchMinimizing;
+  }
+
   // In another order, where the first may have ended with more charts than there need be.
   void MergeAgain(double bound) {
     constexpr double kShare = 0.2;
@@ -80,7 +93,7 @@ class CheckedMerger {
     Dissolve();
     groups_.seam_share = 1;
     if (groups_.alive < alive) {
-      MergeWithDarts();
+      MergeWithDarts(Effort::kUsual);
       Dissolve();
     } else {
       groups_.charts = charts;
@@ -209,24 +222,22 @@ class CheckedMerger {
   }
 
   // Pairs that are above the bound together, but not with some darts, if seams don't get longer by that.
-  void MergeWithDarts() {
-    constexpr double kWorthTrying = 1.4;
+  void MergeWithDarts(Effort effort) {
     std::set<std::pair<int, int>> failed;
     while (greedy_.MayMergeMore()) {
       groups_.FindBorders();
       std::vector<std::tuple<double, int, int>> pairs;
       for (int a = 0; a < static_cast<int>(groups_.charts.size()); ++a)
         for (const auto& [b, length] : groups_.charts[a].borders) {
-          if (a > b || !groups_.MayStandTogether(groups_.PartsOfBoth(a, b)) || failed.count({a, b}) > 0)
-            continue;
-          const double stretch = groups_.Trial(groups_.PartsOfBoth(a, b)).stretch;
+          if (a > b || failed.count({a, b}) > 0) continue;
+          const double stretch = TrialBeforeDarts(groups_.PartsOfBoth(a, b), effort).stretch;
           if (stretch > 0 && stretch < kWorthTrying) pairs.push_back({stretch, a, b});
         }
       std::sort(pairs.begin(), pairs.end());
       bool merged = false;
       for (const auto& [stretch, a, b] : pairs) {
-        ChartTrial both = groups_.Trial(groups_.PartsOfBoth(a, b));
-        if (!LiesFlatWithDarts(a, b, both.cut_length)) {
+        ChartTrial both = TrialBeforeDarts(groups_.PartsOfBoth(a, b), effort);
+        if (!LiesFlatWithDarts(a, b, effort, both.cut_length)) {
           failed.insert({a, b});
           continue;
         }
@@ -238,9 +249,24 @@ class CheckedMerger {
     }
   }
 
+  // Without stretch when the parts may not come together.
+  ChartTrial TrialBeforeDarts(const std::vector<int>& some, Effort effort) {
+    if (effort == Effort::kUsual) return groups_.MayStandTogether(some) ? groups_.Trial(some) : ChartTrial();
+    return groups_.HoldKeptBorder(some)
+               ? ChartTrial()
+               : TryChartWithOverlaps(groups_.parts.CoarsePatch(some), kWorthTrying, groups_.Poll());
+  }
+
+  // Its parts can be drawn apart, which must not crumple it.
+  bool ComesApart(const DartedChart& chart, double l2_bound) {
+    constexpr double kWorstStretch = 1.8;
+    const auto apart = LayApart(chart.patch.mesh, chart.flat.uv, l2_bound, groups_.Poll());
+    return apart && apart->linf_stretch <= kWorstStretch;
+  }
+
   // `cut_length` is set to that of all cuts, model units.
-  bool LiesFlatWithDarts(int a, int b, double& cut_length) {
-    constexpr int kMostDarts = 4;
+  bool LiesFlatWithDarts(int a, int b, Effort effort, double& cut_length) {
+    constexpr int kFewDarts = 4, kManyDarts = 8;
     const std::vector<int> both = groups_.PartsOfBoth(a, b);
     const auto &one = groups_.charts[a], &other = groups_.charts[b];
     const double longest =
@@ -251,7 +277,7 @@ class CheckedMerger {
       DartGoal goal;
       goal.l2_stretch = coarse ? groups_.CoarseBound() : groups_.bound;
       goal.linf_stretch = kNoBound;
-      goal.most_darts = kMostDarts;
+      goal.most_darts = effort == Effort::kMost ? kManyDarts : kFewDarts;
       goal.longest = groups_.params.max_dart_percent / 100 * open.Diagonal();
       // No bound on the length here: Cut has none and is to find the same darts.
       const DartedChart darted = CutStretchDarts(open, nullptr, goal, groups_.Poll());
@@ -259,7 +285,9 @@ class CheckedMerger {
       constexpr double kRounding = 1e-6;  // darts to the corners of a box may be just as long as its rim
       if (cut_length > (1 + kRounding) * longest) return false;
       if (!darted.flat.ok || darted.flat.l2_stretch > goal.l2_stretch) return false;
-      if (!OverlappingPairs(OnGrid(darted.flat.uv, darted.patch.mesh.triangles), 1).empty()) return false;
+      if (OverlappingPairs(OnGrid(darted.flat.uv, darted.patch.mesh.triangles), 1).empty()) continue;
+      if (effort == Effort::kUsual) return false;
+      if (!coarse && !ComesApart(darted, goal.l2_stretch)) return false;
     }
     return true;
   }

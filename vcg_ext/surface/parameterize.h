@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,8 +18,9 @@
 #include "common/progress.h"
 #include "planar/distortion.h"
 #include "planar/flatten.h"
-#include "planar/overlap.h"
+#include "planar/lay_apart.h"
 #include "planar/map_from_coarser.h"
+#include "planar/overlap.h"
 #include "planar/packing.h"
 #include "planar/trial_flatten.h"
 #include "surface/carried_map.h"
@@ -145,6 +147,23 @@ class Parameterizer {
     }
     if (piece.flat)
       piece.overlaps = OverlappingPairs(OnGrid(piece.uv, piece.patch.mesh.triangles), kMostOverlaps, poll);
+    if (!piece.overlaps.empty() && state == State::kToFlatten &&
+        params_.method == FlattenMethod::kStretchMinimizing)
+      DrawApart(piece, poll);
+  }
+
+  // Where that is enough, nothing has to be cut off.
+  void DrawApart(Piece& piece, const std::function<void()>& poll) const {
+    std::optional<ApartMap> apart = LayApart(piece.patch.mesh, piece.uv, params_.StretchBound(), poll);
+    if (!apart) {  // as Merge has tried it
+      const TrialFlattening flat = TrialFlatten(piece.patch.mesh, {}, poll);
+      if (flat.ok) apart = LayApart(piece.patch.mesh, flat.uv, params_.StretchBound(), poll);
+    }
+    if (!apart) return;
+    piece.is_new = true;
+    piece.uv = std::move(apart->uv);
+    piece.l2_stretch = apart->l2_stretch;
+    piece.overlaps.clear();
   }
 
   // Without a number of charts to keep to, no chart is to be above params.max_stretch.

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "common/parallel.h"
 #include "common/params.h"
 #include "common/progress.h"
+#include "planar/lay_apart.h"
 #include "planar/overlap.h"
 #include "planar/trial_flatten.h"
 #include "surface/border_graph_cut.h"
@@ -59,6 +62,8 @@ class BorderRefiner {
   }
 
  private:
+  static constexpr double kNoBound = std::numeric_limits<double>::infinity();
+
   struct Chart {
     bool good = false;  // flat, with no more stretch than it may have
     ChartPatch patch{};
@@ -142,8 +147,16 @@ class BorderRefiner {
       }
       chart.patch = std::move(patch);
       TrialFlattening flat = TrialFlatten(chart.patch.mesh, options, poll);
-      chart.good = flat.ok && (may_exceed || flat.l2_stretch <= bound) &&
-                   OverlappingPairs(OnGrid(flat.uv, chart.patch.mesh.triangles), 1).empty();
+      chart.good = flat.ok && (may_exceed || flat.l2_stretch <= bound);
+      if (chart.good && !OverlappingPairs(OnGrid(flat.uv, chart.patch.mesh.triangles), 1).empty()) {
+        std::optional<ApartMap> apart =
+            LayApart(chart.patch.mesh, flat.uv, may_exceed ? kNoBound : bound, poll);
+        chart.good = apart.has_value();
+        if (apart) {
+          flat.uv = std::move(apart->uv);
+          flat.l2_stretch = apart->l2_stretch;
+        }
+      }
       chart.cost = flat.energy * chart.patch.Area() / surface_.TotalArea() + SeamCost(cut_length);
       chart.stretch = flat.l2_stretch;
       chart.uv = std::move(flat.uv);

@@ -11,6 +11,7 @@
 #include "common/pi.h"
 #include "planar/coarse_chart.h"
 #include "planar/distortion.h"
+#include "planar/lay_apart.h"
 #include "planar/map_from_coarser.h"
 #include "planar/overlap.h"
 #include "planar/trial_flatten.h"
@@ -296,6 +297,16 @@ class DartSearch {
   std::vector<char> hopeless_;       // faces
 };
 
+// Of a chart that laps over itself a little.
+bool DrawApart(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart) {
+  std::optional<ApartMap> apart = LayApart(chart.patch.mesh, chart.flat.uv, goal.l2_stretch, poll);
+  if (!apart) return false;
+  chart.flat.uv = std::move(apart->uv);
+  chart.flat.l2_stretch = apart->l2_stretch;
+  chart.flat.linf_stretch = apart->linf_stretch;
+  return true;
+}
+
 // Darts that bring the L2 stretch within a goal with finish, whatever becomes of the worst stretch; returns
 // whether it is.
 bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart) {
@@ -307,7 +318,7 @@ bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, 
   DartSearch(mean, poll, darted).Run();
   if (darted.count == 0) return false;
   darted.flat = FlatWithFinish(darted.patch, goal, poll);
-  if (!darted.flat.ok || Overlaps(darted)) return false;
+  if (!darted.flat.ok || (Overlaps(darted) && !DrawApart(goal, poll, darted))) return false;
   chart = std::move(darted);
   return chart.flat.l2_stretch <= goal.l2_stretch;
 }

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "planar/chart_mesh.h"
+
+namespace dcharts {
+
+struct ApartMap {
+  Points2 uv;  ///< #V by 2, model units, UV area = surface area
+  double l2_stretch = 0, linf_stretch = 0;
+};
+
+/// Where a map without flipped triangles laps over itself a little, its parts are drawn apart, and the chart
+/// gives way with the least stretch. `uv`: that map, in any scale. Nothing when they don't come apart in a
+/// few rounds or when the L2 stretch would be above `l2_bound`. `poll` is called now and then and may throw.
+std::optional<ApartMap> LayApart(const ChartMesh& chart, const Points2& uv, double l2_bound,
+                                 const std::function<void()>& poll);
+
+}  // namespace dcharts
