@@ -147,9 +147,13 @@ class Parameterizer {
     }
     if (piece.flat)
       piece.overlaps = OverlappingPairs(OnGrid(piece.uv, piece.patch.mesh.triangles), kMostOverlaps, poll);
-    if (!piece.overlaps.empty() && state == State::kToFlatten &&
-        params_.method == FlattenMethod::kStretchMinimizing)
-      DrawApart(piece, poll);
+    if (!piece.overlaps.empty() && state == State::kToFlatten && MayDrawApart()) DrawApart(piece, poll);
+  }
+
+  // That costs some stretch. With a number of charts to keep to there is no need: what is cut off finds
+  // another chart.
+  bool MayDrawApart() const {
+    return params_.method == FlattenMethod::kStretchMinimizing && params_.target_charts == 0;
   }
 
   // Where that is enough, nothing has to be cut off.

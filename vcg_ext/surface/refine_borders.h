@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -62,8 +61,6 @@ class BorderRefiner {
   }
 
  private:
-  static constexpr double kNoBound = std::numeric_limits<double>::infinity();
-
   struct Chart {
     bool good = false;  // flat, with no more stretch than it may have
     ChartPatch patch{};
@@ -148,19 +145,22 @@ class BorderRefiner {
       chart.patch = std::move(patch);
       TrialFlattening flat = TrialFlatten(chart.patch.mesh, options, poll);
       chart.good = flat.ok && (may_exceed || flat.l2_stretch <= bound);
-      if (chart.good && !OverlappingPairs(OnGrid(flat.uv, chart.patch.mesh.triangles), 1).empty()) {
-        std::optional<ApartMap> apart =
-            LayApart(chart.patch.mesh, flat.uv, may_exceed ? kNoBound : bound, poll);
-        chart.good = apart.has_value();
-        if (apart) {
-          flat.uv = std::move(apart->uv);
-          flat.l2_stretch = apart->l2_stretch;
-        }
-      }
+      if (chart.good && !OverlappingPairs(OnGrid(flat.uv, chart.patch.mesh.triangles), 1).empty())
+        chart.good = params_.target_charts == 0 && DrawApart(chart.patch.mesh, bound, poll, flat);
       chart.cost = flat.energy * chart.patch.Area() / surface_.TotalArea() + SeamCost(cut_length);
       chart.stretch = flat.l2_stretch;
       chart.uv = std::move(flat.uv);
     });
+  }
+
+  // As Merge may have done it.
+  static bool DrawApart(const ChartMesh& mesh, double bound, const std::function<void()>& poll,
+                        TrialFlattening& flat) {
+    std::optional<ApartMap> apart = LayApart(mesh, flat.uv, bound, poll);
+    if (!apart) return false;
+    flat.uv = std::move(apart->uv);
+    flat.l2_stretch = apart->l2_stretch;
+    return true;
   }
 
   const SurfaceGraph<MeshType>& surface_;
