@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <random>
 #include <string>
@@ -64,6 +65,39 @@ Outcome OutcomeOf(SurfaceData mesh, int count, const Stages& stages) {
   outcome.seam_length = *change.report.seam_length;
   outcome.darts = change.report.darts.value_or(0);
   return outcome;
+}
+
+// Every face in four at the middles of its edges: the same surface.
+SurfaceData Quartered(const SurfaceData& mesh) {
+  SurfaceData fine;
+  fine.vertices = mesh.vertices;
+  std::map<std::pair<int, int>, int> middles;
+  const auto middle = [&](int a, int b) {
+    const auto [at, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<int>(fine.vertices.size()));
+    if (!is_new) return at->second;
+    const auto &p = mesh.vertices[a], &q = mesh.vertices[b];
+    fine.vertices.push_back({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
+    return at->second;
+  };
+  for (const auto& [a, b, c] : mesh.faces) {
+    const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    fine.faces.insert(fine.faces.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {bc, ca, ab}});
+  }
+  return fine;
+}
+
+// Noise with a standard deviation of 5 % of the mean edge.
+SurfaceData Noisy(SurfaceData mesh) {
+  double edge = 0;
+  for (const auto& [a, b, c] : mesh.faces) {
+    const auto &p = mesh.vertices[a], &q = mesh.vertices[b];
+    edge += std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) / static_cast<double>(mesh.faces.size());
+  }
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0, 0.05 * edge);
+  for (auto& p : mesh.vertices)
+    for (double& x : p) x += noise(random);
+  return mesh;
 }
 
 SurfaceChange Atlas(const SurfaceData& mesh, int count) {
@@ -172,6 +206,20 @@ TEST(Invariance, MirrorImage) {
     for (auto& p : mesh.vertices) p[0] = -p[0];
     for (auto& face : mesh.faces) std::swap(face[1], face[2]);
   });
+}
+
+TEST(Invariance, HowManyChartsThereAreHardlyHangsOnTheTriangles) {
+  for (const char* name : {"plush", "cad_part"}) {
+    const SurfaceData mesh = shapes::ShapeByName(name).mesh;
+    Progress progress;
+    const auto charts = [&](const SurfaceData& of) {
+      return *TextureAtlas(of, Params(), progress).report.charts;
+    };
+    const int count = charts(mesh);
+    EXPECT_LE(count, 4) << name;
+    EXPECT_NEAR(charts(Noisy(mesh)), count, 1) << name;
+    EXPECT_NEAR(charts(Quartered(mesh)), count, 1) << name;
+  }
 }
 
 TEST(Invariance, TwiceInARow) {
