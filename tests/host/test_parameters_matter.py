@@ -61,6 +61,9 @@ OTHER_OF_FILTER = {
     ('dcharts_cut', 'target_charts'): (30, {'max_dart_percent': 0.0}),  # charts above max_stretch are parted or not
     ('dcharts_straighten', 'max_fitting_error'): (0.02, {'straighten_by': 'Shortest Path'}),
 }
+# By default the model ends as three charts, whatever it begins with.
+OTHER_OF_FILTER |= {('dcharts_texture_atlas', name): (OTHER[name][0], {'max_stretch': 1.002})
+                    for name in ('max_fitting_error', 'small_hole_percent', 'straighten_by')}
 FROM_THE_START = ('dcharts_segment', 'dcharts_texture_atlas', 'dcharts_pattern')
 
 
