@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "atlas_checks.h"
+#include "noisy.h"
 #include "shapes.h"
 
 namespace dcharts {
@@ -84,20 +85,6 @@ SurfaceData Quartered(const SurfaceData& mesh) {
     fine.faces.insert(fine.faces.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {bc, ca, ab}});
   }
   return fine;
-}
-
-// Noise with a standard deviation of 5 % of the mean edge.
-SurfaceData Noisy(SurfaceData mesh) {
-  double edge = 0;
-  for (const auto& [a, b, c] : mesh.faces) {
-    const auto &p = mesh.vertices[a], &q = mesh.vertices[b];
-    edge += std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) / static_cast<double>(mesh.faces.size());
-  }
-  std::mt19937 random(5);
-  std::normal_distribution<double> noise(0, 0.05 * edge);
-  for (auto& p : mesh.vertices)
-    for (double& x : p) x += noise(random);
-  return mesh;
 }
 
 SurfaceChange Atlas(const SurfaceData& mesh, int count) {
@@ -217,7 +204,7 @@ TEST(Invariance, HowManyChartsThereAreHardlyHangsOnTheTriangles) {
     };
     const int count = charts(mesh);
     EXPECT_LE(count, 4) << name;
-    EXPECT_NEAR(charts(Noisy(mesh)), count, 1) << name;
+    EXPECT_NEAR(charts(test::Noisy(mesh, 0.05, 5)), count, 1) << name;
     EXPECT_NEAR(charts(Quartered(mesh)), count, 1) << name;
   }
 }

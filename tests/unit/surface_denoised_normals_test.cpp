@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "common/pi.h"
+#include "noisy.h"
 #include "surface/crease_weight.h"
 #include "surface/workspace.h"
 #include "surface_fixture.h"
@@ -20,27 +21,9 @@
 namespace dcharts {
 namespace {
 
+using test::Noisy;
 using test::TestSurface;
 using Normals = std::vector<Eigen::Vector3d>;
-
-double MeanEdge(const SurfaceData& mesh) {
-  double sum = 0;
-  for (const auto& face : mesh.faces)
-    for (size_t i = 0; i < 3; ++i) {
-      const auto &a = mesh.vertices[face[i]], &b = mesh.vertices[face[(i + 1) % 3]];
-      sum += std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-    }
-  return sum / (3 * static_cast<double>(mesh.faces.size()));
-}
-
-// Each coordinate off by `share` of the mean edge (standard deviation).
-SurfaceData Noisy(SurfaceData mesh, double share, unsigned seed = 3) {
-  std::mt19937 random(seed);
-  std::normal_distribution<double> noise(0, share * MeanEdge(mesh));
-  for (auto& p : mesh.vertices)
-    for (double& x : p) x += noise(random);
-  return mesh;
-}
 
 class DenoisedSurface {
  public:

@@ -33,9 +33,7 @@ double Length(const ChartPatch& patch, const std::vector<int>& edges) {
   return length;
 }
 
-bool Overlaps(const DartedChart& chart) {
-  return !OverlappingPairs(OnGrid(chart.flat.uv, chart.patch.mesh.triangles), 1).empty();
-}
+bool Overlaps(const DartedChart& chart) { return OverlapsItself(chart.flat.uv, chart.patch.mesh.triangles); }
 
 TEST(StretchDarts, AConeGetsOneToItsApex) {
   const TestSurface surface(shapes::OpenCone(24));

@@ -192,9 +192,9 @@ class ApartDrawer {
     size_t fewest = most;
     int without_gain = 0;
     for (int round = 0; round <= kRounds && without_gain < kPatience; ++round) {
-      const auto overlapping = Overlapping(map, most);
+      const auto overlapping = OverlappingPairs(OnGrid(ToPoints(map, 1.0), chart_.triangles), most, poll_);
       if (overlapping.empty()) return true;
-      if (overlapping.size() == most) return false;
+      if (overlapping.size() == most || round == kRounds) return false;
       without_gain = overlapping.size() < fewest ? 0 : without_gain + 1;
       fewest = std::min(fewest, overlapping.size());
       contacts_.Find(overlapping, map);
@@ -212,7 +212,7 @@ class ApartDrawer {
     for (int step = 0; step < kSteps; ++step) {
       contacts_.Find({}, spread);
       Step({StretchEnergy::Kind::kSanderTail, 6, kOfWorst * worst}, 1, spread);
-      if (!Overlapping(spread, 1).empty() && !Run(spread)) return;
+      if (OverlapsItself(ToPoints(spread, 1.0), chart_.triangles, poll_) && !Run(spread)) return;
       const double now = Worst(spread);
       if (!(now < worst)) continue;
       worst = now;
@@ -222,10 +222,6 @@ class ApartDrawer {
 
  private:
   double Worst(const PlanePoints& map) const { return MeasureStretch(chart_, ToPoints(map, 1.0)).Linf(); }
-
-  std::vector<std::pair<int, int>> Overlapping(const PlanePoints& map, size_t most) const {
-    return OverlappingPairs(OnGrid(ToPoints(map, 1.0), chart_.triangles), most, poll_);
-  }
 
   void Step(const StretchEnergy& energy, int count, PlanePoints& map) {
     const VertexPulls pulls = contacts_.Pulls(map);
@@ -248,20 +244,25 @@ void LowerWorst(const Triangles& triangles, const RestShapes& shapes, const std:
                 PlanePoints& map) {
   PlanePoints lower = map;
   VertexSweeps(static_cast<int>(map.size()), triangles, shapes).LowerWorst(poll, lower);
-  if (OverlappingPairs(OnGrid(ToPoints(lower, 1.0), triangles), 1, poll).empty()) map = std::move(lower);
+  if (!OverlapsItself(ToPoints(lower, 1.0), triangles, poll)) map = std::move(lower);
+}
+
+// Brings a map to its best size, and lets slivers be. False when it flips.
+bool MadeReady(const Triangles& triangles, RestShapes& shapes, PlanePoints& map) {
+  if (!std::isfinite(ScaleToBest(triangles, shapes, map))) return false;
+  RelaxSlivers(triangles, map, shapes);
+  return true;
 }
 
 // A map of the chart whose parts are at least `gap` apart, lengths of rim edges; nothing when there is none.
-std::optional<PlanePoints> ApartFrom(const NormalizedChart& normalized, PlanePoints map, double gap,
+std::optional<PlanePoints> ApartFrom(const ChartMesh& normalized, PlanePoints map, double gap,
                                      const std::function<void()>& poll) {
-  const Triangles& triangles = normalized.mesh.triangles;
-  RestShapes shapes = RestShapesOf(normalized.mesh);
-  if (!std::isfinite(ScaleToBest(triangles, shapes, map))) return std::nullopt;
-  RelaxSlivers(triangles, map, shapes);
-  ApartDrawer drawer(normalized.mesh, shapes, gap, poll);
+  RestShapes shapes = RestShapesOf(normalized);
+  if (!MadeReady(normalized.triangles, shapes, map)) return std::nullopt;
+  ApartDrawer drawer(normalized, shapes, gap, poll);
   if (!drawer.Run(map)) return std::nullopt;
   drawer.SpreadOut(map);
-  LowerWorst(triangles, shapes, poll, map);
+  LowerWorst(normalized.triangles, shapes, poll, map);
   return map;
 }
 
@@ -276,20 +277,19 @@ Points2 FlatApart(const ChartMesh& chart, double gap, const std::function<void()
   }
   const TrialFlattening flat = TrialFlatten(chart, {}, poll);
   if (!flat.ok) return Points2();
-  const std::optional<PlanePoints> map = ApartFrom(normalized, ToPlanePoints(flat.uv), gap, poll);
+  const std::optional<PlanePoints> map = ApartFrom(normalized.mesh, ToPlanePoints(flat.uv), gap, poll);
   return map ? ToPoints(*map, normalized.scale) : Points2();
 }
 
-// A map continued from one of a coarser chart, whose parts are farther apart.
-std::optional<PlanePoints> ApartFromCoarser(const ChartMesh& chart, const std::function<void()>& poll) {
+// A map continued from one of a coarser chart, whose parts are farther apart. `normalized`: of `chart`.
+std::optional<PlanePoints> ApartFromCoarser(const ChartMesh& chart, const ChartMesh& normalized,
+                                            const std::function<void()>& poll) {
   constexpr double kWideGap = 0.3;
   const Points2 uv = FlatApart(chart, kWideGap, poll);
-  if (uv.rows() == 0 || !OverlappingPairs(OnGrid(uv, chart.triangles), 1, poll).empty()) return std::nullopt;
-  const NormalizedChart normalized = Normalized(chart);
-  RestShapes shapes = RestShapesOf(normalized.mesh);
+  if (uv.rows() == 0 || OverlapsItself(uv, chart.triangles, poll)) return std::nullopt;
+  RestShapes shapes = RestShapesOf(normalized);
   PlanePoints map = ToPlanePoints(uv);
-  if (!std::isfinite(ScaleToBest(chart.triangles, shapes, map))) return std::nullopt;
-  RelaxSlivers(chart.triangles, map, shapes);
+  if (!MadeReady(chart.triangles, shapes, map)) return std::nullopt;
   LowerWorst(chart.triangles, shapes, poll, map);
   return map;
 }
@@ -302,9 +302,9 @@ std::optional<ApartMap> LayApart(const ChartMesh& chart, const Points2& uv, doub
   if (!(normalized.scale > 0)) return std::nullopt;
   constexpr int kManyTriangles = 100000;  // for linear solves
   std::optional<PlanePoints> map;
-  if (IsLargeChart(chart)) map = ApartFromCoarser(chart, poll);
+  if (IsLargeChart(chart)) map = ApartFromCoarser(chart, normalized.mesh, poll);
   if (!map && chart.triangles.rows() <= kManyTriangles)
-    map = ApartFrom(normalized, ToPlanePoints(uv), kGap, poll);
+    map = ApartFrom(normalized.mesh, ToPlanePoints(uv), kGap, poll);
   if (!map) return std::nullopt;
   const StretchFigures figures = MeasureStretch(normalized.mesh, ToPoints(*map, 1.0));
   if (!(figures.L2() <= l2_bound)) return std::nullopt;

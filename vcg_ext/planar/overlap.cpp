@@ -131,4 +131,8 @@ std::vector<GridTriangle> OnGrid(const Points2& uv, const Triangles& triangles) 
   return grid;
 }
 
+bool OverlapsItself(const Points2& uv, const Triangles& triangles, const std::function<void()>& poll) {
+  return !OverlappingPairs(OnGrid(uv, triangles), 1, poll).empty();
+}
+
 }  // namespace dcharts

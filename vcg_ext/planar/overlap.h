@@ -29,4 +29,7 @@ std::vector<std::pair<int, int>> OverlappingPairs(const std::vector<GridTriangle
 /// A chart's triangles on a grid of 2^28 cells over the longer side of their box.
 std::vector<GridTriangle> OnGrid(const Points2& uv, const Triangles& triangles);
 
+/// Whether any two triangles of a chart's map overlap.
+bool OverlapsItself(const Points2& uv, const Triangles& triangles, const std::function<void()>& poll = {});
+
 }  // namespace dcharts

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -224,19 +225,22 @@ class CheckedMerger {
   // Pairs that are above the bound together, but not with some darts, if seams don't get longer by that.
   void MergeWithDarts(Effort effort) {
     std::set<std::pair<int, int>> failed;
+    std::map<std::pair<int, int>, ChartTrial> trials;
     while (greedy_.MayMergeMore()) {
       groups_.FindBorders();
       std::vector<std::tuple<double, int, int>> pairs;
       for (int a = 0; a < static_cast<int>(groups_.charts.size()); ++a)
         for (const auto& [b, length] : groups_.charts[a].borders) {
           if (a > b || failed.count({a, b}) > 0) continue;
-          const double stretch = TrialBeforeDarts(groups_.PartsOfBoth(a, b), effort).stretch;
+          const auto [at, is_new] = trials.try_emplace({a, b});
+          if (is_new) at->second = TrialBeforeDarts(groups_.PartsOfBoth(a, b), effort);
+          const double stretch = at->second.stretch;
           if (stretch > 0 && stretch < kWorthTrying) pairs.push_back({stretch, a, b});
         }
       std::sort(pairs.begin(), pairs.end());
       bool merged = false;
       for (const auto& [stretch, a, b] : pairs) {
-        ChartTrial both = TrialBeforeDarts(groups_.PartsOfBoth(a, b), effort);
+        ChartTrial both = trials.at({a, b});
         if (!LiesFlatWithDarts(a, b, effort, both.cut_length)) {
           failed.insert({a, b});
           continue;
@@ -285,7 +289,7 @@ class CheckedMerger {
       constexpr double kRounding = 1e-6;  // darts to the corners of a box may be just as long as its rim
       if (cut_length > (1 + kRounding) * longest) return false;
       if (!darted.flat.ok || darted.flat.l2_stretch > goal.l2_stretch) return false;
-      if (OverlappingPairs(OnGrid(darted.flat.uv, darted.patch.mesh.triangles), 1).empty()) continue;
+      if (!OverlapsItself(darted.flat.uv, darted.patch.mesh.triangles)) continue;
       if (effort == Effort::kUsual) return false;
       if (!coarse && !ComesApart(darted, goal.l2_stretch)) return false;
     }

@@ -365,7 +365,7 @@ class Parameterizer {
     if (!piece.flat || piece.l2_stretch > std::min(kWorthIt, params_.StretchBound())) return false;
     if (params_.method != FlattenMethod::kStretchMinimizing) LayFlat(piece, params_.method, poll);
     if (!piece.flat) return false;
-    if (!OverlappingPairs(OnGrid(piece.uv, piece.patch.mesh.triangles), 1).empty()) return false;
+    if (OverlapsItself(piece.uv, piece.patch.mesh.triangles)) return false;
     Store(piece);
     seams = std::move(joined);
     for (int f : faces) {

@@ -145,7 +145,7 @@ class BorderRefiner {
       chart.patch = std::move(patch);
       TrialFlattening flat = TrialFlatten(chart.patch.mesh, options, poll);
       chart.good = flat.ok && (may_exceed || flat.l2_stretch <= bound);
-      if (chart.good && !OverlappingPairs(OnGrid(flat.uv, chart.patch.mesh.triangles), 1).empty())
+      if (chart.good && OverlapsItself(flat.uv, chart.patch.mesh.triangles))
         chart.good = params_.target_charts == 0 && DrawApart(chart.patch.mesh, bound, poll, flat);
       chart.cost = flat.energy * chart.patch.Area() / surface_.TotalArea() + SeamCost(cut_length);
       chart.stretch = flat.l2_stretch;

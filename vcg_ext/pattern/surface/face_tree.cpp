@@ -96,14 +96,12 @@ void FaceTree::Search(int index, const Vector3d& p, const Vector3d& normal, Near
 
 FaceTree::Nearest FaceTree::Find(const Vector3d& p) const {
   Nearest best;
-  best.distance = std::numeric_limits<double>::infinity();
   Search(0, p, Vector3d::Zero(), best);
   return best;
 }
 
 FaceTree::Nearest FaceTree::FindFacing(const Vector3d& p, const Vector3d& normal) const {
   Nearest best;
-  best.distance = std::numeric_limits<double>::infinity();
   Search(0, p, normal, best);
   return best.face >= 0 ? best : Find(p);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -18,7 +19,7 @@ class FaceTree {
 
   struct Nearest {
     int face = -1;
-    double distance = 0;
+    double distance = std::numeric_limits<double>::infinity();
     Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< of the face
   };
 

@@ -161,7 +161,7 @@ class ImageJoiner {
       options.method = params_.method;
       flat = Flatten(patch.mesh, options, poll);
     }
-    return flat.ok && flat.note.empty() && OverlappingPairs(OnGrid(flat.uv, patch.mesh.triangles), 1).empty();
+    return flat.ok && flat.note.empty() && !OverlapsItself(flat.uv, patch.mesh.triangles);
   }
 
   static constexpr double kWorstStretch = 1.3;  // what darts are to reach, as of all charts

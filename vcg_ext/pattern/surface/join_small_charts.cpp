@@ -101,7 +101,7 @@ bool ChartsForPattern::TryJoin(int small, int other, ChartIds& ids, SeamMask& se
   const double bound =
       std::max(params_.StretchBound(), 1 + (area < UselessArea() ? kForUseless * gives : gives));
   if (!flat.ok || !flat.note.empty() || flat.l2_stretch > bound) return false;
-  if (!OverlappingPairs(OnGrid(flat.uv, patch.mesh.triangles), 1).empty()) return false;
+  if (OverlapsItself(flat.uv, patch.mesh.triangles)) return false;
   seams = std::move(joined);
   for (int f : faces) ids[f] = other;
   Store(patch, flat.uv);

@@ -33,8 +33,7 @@ Points2 FlattenAnew(const ChartMesh& mesh, FlattenMethod method, const std::func
   FlattenOptions options;
   options.method = method;
   Flattening flat = Flatten(mesh, options, poll);
-  if (!flat.ok || !flat.note.empty() || !OverlappingPairs(OnGrid(flat.uv, mesh.triangles), 1).empty())
-    return {};
+  if (!flat.ok || !flat.note.empty() || OverlapsItself(flat.uv, mesh.triangles)) return {};
   return std::move(flat.uv);
 }
 
