@@ -59,14 +59,21 @@ struct ChartGroups {
   double Energy(int c) const { return charts[c].trial.energy * charts[c].area; }
   /// Of all charts and the seams between them.
   double Cost() const {
-    const std::vector<int> owner = Owners();
-    double cost = 0;
+    double cost = SeamCost(SeamLength());
     for (int c = 0; c < static_cast<int>(charts.size()); ++c)
-      if (charts[c].alive) cost += Energy(c) + SeamCost(CutLength(charts[c].trial));
+      if (charts[c].alive) cost += Energy(c);
+    return cost;
+  }
+  /// Of the borders between charts and the cuts in them.
+  double SeamLength() const {
+    const std::vector<int> owner = Owners();
+    double sum = 0;
+    for (const Chart& chart : charts)
+      if (chart.alive) sum += CutLength(chart.trial);
     for (int p = 0; p < parts.Count(); ++p)
       for (const auto& [q, length] : parts.Borders(p))
-        if (p < q && owner[p] != owner[q]) cost += SeamCost(length);
-    return cost;
+        if (p < q && owner[p] != owner[q]) sum += length;
+    return sum;
   }
   /// The area of charts that nobody asked for: a tiny chart hardly adds to the seams, so without this a
   /// number of charts to reach would be made up with specks.

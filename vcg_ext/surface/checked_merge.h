@@ -34,7 +34,7 @@ class CheckedMerger {
     if (bound < kNoBound) MergeWithDarts(Effort::kUsual);
     if (to_fewest) {
       Dissolve();
-      if (MayBeTooMany()) MergeAgain(bound);
+      if (MayBeTooMany() || merges_with_darts_ >= kManyWithDarts) MergeAgain(bound);
       if (IsWorthMostEffort()) MergeWithDarts(Effort::kMost);
     }
     if (groups_.params.target_charts > 0 && greedy_.MayMergeMore()) Merge(kNoBound);
@@ -44,6 +44,9 @@ class CheckedMerger {
  private:
   static constexpr double kNoBound = ChartGroups<MeshType>::kNoBound;
   static constexpr double kWorthTrying = 1.4;  // the L2 stretch without darts
+
+  // Darts have let through as many merges, which in another order need not be made.
+  static constexpr int kManyWithDarts = 2;
 
   // With most effort a pair gets more darts, and is drawn apart where it laps over itself.
   enum class Effort { kUsual, kMost };
@@ -82,21 +85,23 @@ class CheckedMerger {
            groups_.params.method == FlattenMethod::kStretchMinimizing;
   }
 
-  // In another order, where the first may have ended with more charts than there need be.
+  // In another order; kept where that ends with fewer charts, or with as many and shorter seams.
   void MergeAgain(double bound) {
     constexpr double kShare = 0.2;
     const auto charts = groups_.charts;
     const int alive = groups_.alive;
+    const double seams = groups_.SeamLength();
     groups_.TakeApart();
     greedy_.Restart();
     groups_.seam_share = kShare;
     Merge(bound);
     Dissolve();
     groups_.seam_share = 1;
-    if (groups_.alive < alive) {
+    if (merges_with_darts_ > 0 || groups_.alive < alive) {
       MergeWithDarts(Effort::kUsual);
       Dissolve();
-    } else {
+    }
+    if (std::make_pair(groups_.alive, groups_.SeamLength()) >= std::make_pair(alive, seams)) {
       groups_.charts = charts;
       groups_.alive = alive;
     }
@@ -247,6 +252,7 @@ class CheckedMerger {
         }
         groups_.charts[groups_.Join(a, b, both)].verified = true;
         merged = true;
+        ++merges_with_darts_;
         break;
       }
       if (!merged) return;
@@ -298,6 +304,7 @@ class CheckedMerger {
 
   ChartGroups<MeshType>& groups_;
   GreedyMerger<MeshType> greedy_;
+  int merges_with_darts_ = 0;
 };
 
 }  // namespace dcharts

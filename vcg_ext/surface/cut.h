@@ -40,6 +40,7 @@ class ChartCutter {
     const bool by_stretch = params_.dart_by == DartMethod::kMeasuredStretch;
     int darts = by_stretch ? 0 : CutByFittingError(ids, seams);
     if (by_stretch || MayPart()) darts += CutByStretch(ids, seams, known);
+    if (by_stretch && MayPart()) darts += LowerMeanStretch(ids, seams, known);
     DropIneffectiveSeams(surface_, seams);
     return darts;
   }
@@ -139,6 +140,42 @@ class ChartCutter {
     if (above > 0 && params_.target_charts > 0)
       progress_.Log(std::to_string(above) +
                     " charts exceed max_stretch: the number of charts asked for goes before it.");
+    return count;
+  }
+
+  // Within its bound a chart's stretch is a matter of chance. Where the whole is above halfway to it, the
+  // charts that are stretched most get darts until it no longer is.
+  int LowerMeanStretch(const ChartIds& ids, SeamMask& seams, KnownFlattenings& known) {
+    const double halfway = 1 + (params_.StretchBound() - 1) / 2;
+    std::vector<DartedChart> charts;
+    double sum = 0;  // of area times L2 stretch
+    PatchExtractor<MeshType> extractor(surface_, seams);
+    for (const auto& faces : FacesOfCharts(ids)) {
+      DartedChart chart;
+      chart.patch = extractor.Extract(faces);
+      const Flattening* flat = known.Find(chart.patch);
+      if (!flat) return 0;  // it could not be laid flat
+      chart.flat = *flat;
+      sum += chart.patch.Area() * (flat->l2_stretch - 1);
+      charts.push_back(std::move(chart));
+    }
+    std::sort(charts.begin(), charts.end(), [](const DartedChart& a, const DartedChart& b) {
+      return a.flat.l2_stretch > b.flat.l2_stretch;
+    });
+    int count = 0;
+    for (DartedChart& chart : charts) {
+      const double before = chart.flat.l2_stretch;
+      if (sum <= (halfway - 1) * surface_.TotalArea() || before <= halfway) break;
+      progress_.Poll();
+      DartGoal goal = GoalOf(chart.patch, halfway);
+      goal.may_give_up = false;
+      DartedChart darted = CutStretchDarts(chart.patch, &chart.flat, goal, [&] { progress_.Poll(); });
+      if (!darted.flat.ok || darted.count == 0 || darted.flat.l2_stretch >= before) continue;
+      sum += chart.patch.Area() * (darted.flat.l2_stretch - before);
+      count += darted.count;
+      Mark(darted.patch, darted.edges, seams);
+      known.Add(darted.patch, std::move(darted.flat));
+    }
     return count;
   }
 
