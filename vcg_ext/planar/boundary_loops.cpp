@@ -9,11 +9,11 @@ namespace {
 
 std::size_t At(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
-// The directed edges of the triangles, by the vertex they leave.
+// The directed edges of the triangles, by the vertex they leave and by the one they come to.
 class DirectedEdges {
  public:
   DirectedEdges(const Triangles& triangles, int vertex_count)
-      : start_(At(vertex_count) + 1, 0), to_(At(3 * triangles.rows())) {
+      : start_(At(vertex_count) + 1, 0), to_(At(3 * triangles.rows())), from_(to_.size()) {
     for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
       for (int k = 0; k < 3; ++k) ++start_[At(triangles(t, k)) + 1];
     }
@@ -21,17 +21,14 @@ class DirectedEdges {
     std::vector<int> end(start_.begin(), start_.end() - 1);
     for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
       for (int k = 0; k < 3; ++k) {
-        to_[At(end[At(triangles(t, k))]++)] = triangles(t, (k + 1) % 3);
+        const std::size_t at = At(end[At(triangles(t, k))]++);
+        to_[at] = triangles(t, (k + 1) % 3);
+        from_[at] = triangles(t, (k + 2) % 3);
       }
     }
   }
 
   int VertexCount() const { return static_cast<int>(start_.size()) - 1; }
-
-  bool Contain(int from, int to) const {
-    const auto begin = to_.begin() + start_[At(from)], end = to_.begin() + start_[At(from) + 1];
-    return std::find(begin, end, to) != end;
-  }
 
   bool HaveDuplicates() const {
     std::vector<int> last_from(start_.size(), -1);
@@ -49,9 +46,11 @@ class DirectedEdges {
   std::vector<int> BoundarySuccessors(std::vector<int>& count) const {
     std::vector<int> next(At(VertexCount()), -1);
     count.assign(At(VertexCount()), 0);
+    std::vector<int> comes_to(At(VertexCount()), -1);
     for (int v = 0; v < VertexCount(); ++v) {
+      for (int i = start_[At(v)]; i < start_[At(v) + 1]; ++i) comes_to[At(from_[At(i)])] = v;
       for (int i = start_[At(v)]; i < start_[At(v) + 1]; ++i) {
-        if (Contain(to_[At(i)], v)) continue;
+        if (comes_to[At(to_[At(i)])] == v) continue;
         next[At(v)] = to_[At(i)];
         ++count[At(v)];
       }
@@ -60,8 +59,8 @@ class DirectedEdges {
   }
 
  private:
-  std::vector<int> start_;  // of each vertex in to_, and the end
-  std::vector<int> to_;
+  std::vector<int> start_;  // of each vertex in to_ and from_, and the end
+  std::vector<int> to_, from_;
 };
 
 std::vector<std::vector<int>> LoopsOf(std::vector<int> next) {
