@@ -43,6 +43,7 @@ class CheckedMerger {
 
  private:
   static constexpr double kNoBound = ChartGroups<MeshType>::kNoBound;
+  static constexpr int kMany = 8;              // charts
   static constexpr double kWorthTrying = 1.4;  // the L2 stretch without darts
 
   // Darts have let through as many merges, which in another order need not be made.
@@ -72,15 +73,15 @@ class CheckedMerger {
   // small ones, ends of limbs, stay in any order.
   bool MayBeTooMany() const {
     constexpr double kSmall = 0.015;
-    constexpr int kFew = 3, kMany = 6;
+    constexpr int kFew = 3, kEnough = 6;
     int count = 0;
     for (const auto& chart : groups_.charts) count += chart.alive && chart.area > kSmall;
-    return count > kFew && count <= kMany;
+    return count > kFew && count <= kEnough;
   }
 
   // What each try costs is little beside what one chart of a few is worth.
   bool IsWorthMostEffort() const {
-    constexpr int kFew = 3, kMany = 8;
+    constexpr int kFew = 3;
     return groups_.alive > kFew && groups_.alive <= kMany &&
            groups_.params.method == FlattenMethod::kStretchMinimizing;
   }
@@ -107,7 +108,7 @@ class CheckedMerger {
     }
   }
 
-  // Charts that can be given away in pieces, the smallest first.
+  // Charts that can be given away in pieces, the smallest first; of many, large ones find no room.
   void Dissolve() {
     for (bool again = true; again;) {
       again = false;
@@ -115,8 +116,10 @@ class CheckedMerger {
       for (int c = 0; c < static_cast<int>(groups_.charts.size()); ++c)
         if (groups_.charts[c].alive) order.push_back({groups_.charts[c].area, c});
       std::sort(order.begin(), order.end());
-      for (const auto& [area, c] : order)
+      for (const auto& [area, c] : order) {
+        if (groups_.alive > kMany && area * groups_.alive > 1) break;
         if (groups_.charts[c].alive) again |= DissolveChart(c);
+      }
     }
   }
 
