@@ -195,17 +195,19 @@ TEST(Invariance, MirrorImage) {
   });
 }
 
-TEST(Invariance, HowManyChartsThereAreHardlyHangsOnTheTriangles) {
+TEST(Invariance, ChartsAndStretchHardlyHangOnTheTriangles) {
   for (const char* name : {"plush", "cad_part"}) {
     const SurfaceData mesh = shapes::ShapeByName(name).mesh;
     Progress progress;
     const auto charts = [&](const SurfaceData& of) {
       return *TextureAtlas(of, Params(), progress).report.charts;
     };
-    const int count = charts(mesh);
-    EXPECT_LE(count, 4) << name;
-    EXPECT_NEAR(charts(test::Noisy(mesh, 0.05, 5)), count, 1) << name;
-    EXPECT_NEAR(charts(Quartered(mesh)), count, 1) << name;
+    const Report as_is = TextureAtlas(mesh, Params(), progress).report,
+                 quartered = TextureAtlas(Quartered(mesh), Params(), progress).report;
+    EXPECT_LE(*as_is.charts, 4) << name;
+    EXPECT_NEAR(charts(test::Noisy(mesh, 0.05, 5)), *as_is.charts, 1) << name;
+    EXPECT_NEAR(*quartered.charts, *as_is.charts, 1) << name;
+    EXPECT_NEAR(*quartered.l2_stretch, *as_is.l2_stretch, 0.002) << name;
   }
 }
 

@@ -342,6 +342,40 @@ TEST(Cut, ChartsKeepWithinMaxStretchWhateverDartsGoBy) {
     }
 }
 
+TEST(Cut, DartsLowerAMeanStretchAboveHalfwayToTheBound) {
+  const TestSurface surface(shapes::SphericalCap(16, 1.2));
+  const auto lowered = [&](const Params& params, CutResult& result) {
+    KnownFlattenings known;
+    Progress progress;
+    result.ids.assign(surface->FaceCount(), 0);
+    ChartCutter<SurfaceMesh> cutter(*surface, params, progress);
+    EXPECT_EQ(cutter.Run(result.ids, result.seams, known), 0);
+    const double before = known.Find(Patches(surface, result)[0])->l2_stretch;
+    result.darts = cutter.LowerMeanStretch(result.ids, result.seams, known);
+    ExpectWellFormed(surface, result);
+    EXPECT_EQ(ChartCount(result.ids), 1);
+    const Flattening* flat = known.Find(Patches(surface, result)[0]);
+    EXPECT_TRUE(flat) << "Parameterize needn't flatten it again";
+    EXPECT_GT(before, 1.005);
+    return flat ? flat->l2_stretch : 0;
+  };
+  Params params;
+  CutResult result;
+  EXPECT_LE(lowered(params, result), 1.005);
+  EXPECT_EQ(result.darts, 1);
+  params.max_stretch = 1.02;
+  lowered(params, result);
+  EXPECT_EQ(result.darts, 0) << "below halfway already";
+  params = Params();
+  params.max_dart_percent = 0;
+  lowered(params, result);
+  EXPECT_EQ(result.darts, 0);
+  params = Params();
+  params.target_charts = 1;
+  lowered(params, result);
+  EXPECT_EQ(result.darts, 0);
+}
+
 TEST(Cut, BordersBetweenChartsAreSeams) {
   const TestSurface surface(shapes::Cube(4));
   CutResult result;

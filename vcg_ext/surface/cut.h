@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,9 +41,45 @@ class ChartCutter {
     const bool by_stretch = params_.dart_by == DartMethod::kMeasuredStretch;
     int darts = by_stretch ? 0 : CutByFittingError(ids, seams);
     if (by_stretch || MayPart()) darts += CutByStretch(ids, seams, known);
-    if (by_stretch && MayPart()) darts += LowerMeanStretch(ids, seams, known);
     DropIneffectiveSeams(surface_, seams);
     return darts;
+  }
+
+  /// How near charts come to their bound is a matter of chance. Where the mean L2 stretch of the whole is
+  /// above halfway to it, the charts that are stretched most get more darts, until it no longer is or none
+  /// helps. Nothing where darts don't go by stretch, or a number of charts is asked for. `known`: of Run().
+  /// Returns the number of darts.
+  int LowerMeanStretch(const ChartIds& ids, SeamMask& seams, KnownFlattenings& known) {
+    if (params_.dart_by != DartMethod::kMeasuredStretch || !MayPart()) return 0;
+    const double halfway = 1 + (params_.StretchBound() - 1) / 2;
+    std::vector<DartedChart> charts;
+    double excess = 0;  // of the mean stretch over `halfway`, times the area
+    PatchExtractor<MeshType> extractor(surface_, seams);
+    for (const auto& faces : FacesOfCharts(ids)) {
+      ChartPatch patch = extractor.Extract(faces);
+      const Flattening* flat = known.Find(patch);
+      if (!flat) return 0;  // it could not be laid flat
+      excess += patch.Area() * (flat->l2_stretch - halfway);
+      charts.emplace_back().flat = *flat;
+      charts.back().patch = std::move(patch);
+    }
+    std::stable_sort(charts.begin(), charts.end(), [](const DartedChart& a, const DartedChart& b) {
+      return a.flat.l2_stretch > b.flat.l2_stretch;
+    });
+    int count = 0;
+    for (const DartedChart& chart : charts) {
+      const double before = chart.flat.l2_stretch;
+      if (!(excess > 0) || before <= halfway) break;
+      DartGoal goal = GoalOf(chart.patch, halfway);
+      goal.may_give_up = false;
+      DartedChart darted = CutStretchDarts(chart.patch, &chart.flat, goal, [this] { progress_.Poll(); });
+      if (!darted.flat.ok || darted.count == 0 || darted.flat.l2_stretch >= before) continue;
+      excess += chart.patch.Area() * (darted.flat.l2_stretch - before);
+      count += darted.count;
+      Mark(darted.patch, darted.edges, seams);
+      known.Add(darted.patch, std::move(darted.flat));
+    }
+    return count;
   }
 
   /// The cuts that no chart can do without: after it every chart has a boundary and no handle. Returns how
@@ -140,42 +177,6 @@ class ChartCutter {
     if (above > 0 && params_.target_charts > 0)
       progress_.Log(std::to_string(above) +
                     " charts exceed max_stretch: the number of charts asked for goes before it.");
-    return count;
-  }
-
-  // Within its bound a chart's stretch is a matter of chance. Where the whole is above halfway to it, the
-  // charts that are stretched most get darts until it no longer is.
-  int LowerMeanStretch(const ChartIds& ids, SeamMask& seams, KnownFlattenings& known) {
-    const double halfway = 1 + (params_.StretchBound() - 1) / 2;
-    std::vector<DartedChart> charts;
-    double sum = 0;  // of area times L2 stretch
-    PatchExtractor<MeshType> extractor(surface_, seams);
-    for (const auto& faces : FacesOfCharts(ids)) {
-      DartedChart chart;
-      chart.patch = extractor.Extract(faces);
-      const Flattening* flat = known.Find(chart.patch);
-      if (!flat) return 0;  // it could not be laid flat
-      chart.flat = *flat;
-      sum += chart.patch.Area() * (flat->l2_stretch - 1);
-      charts.push_back(std::move(chart));
-    }
-    std::sort(charts.begin(), charts.end(), [](const DartedChart& a, const DartedChart& b) {
-      return a.flat.l2_stretch > b.flat.l2_stretch;
-    });
-    int count = 0;
-    for (DartedChart& chart : charts) {
-      const double before = chart.flat.l2_stretch;
-      if (sum <= (halfway - 1) * surface_.TotalArea() || before <= halfway) break;
-      progress_.Poll();
-      DartGoal goal = GoalOf(chart.patch, halfway);
-      goal.may_give_up = false;
-      DartedChart darted = CutStretchDarts(chart.patch, &chart.flat, goal, [&] { progress_.Poll(); });
-      if (!darted.flat.ok || darted.count == 0 || darted.flat.l2_stretch >= before) continue;
-      sum += chart.patch.Area() * (darted.flat.l2_stretch - before);
-      count += darted.count;
-      Mark(darted.patch, darted.edges, seams);
-      known.Add(darted.patch, std::move(darted.flat));
-    }
     return count;
   }
 

@@ -10,9 +10,13 @@
 
 namespace dcharts {
 
+/// A pattern is sewn or glued along every dart, so it gets only those that its charts need to keep within
+/// their bound.
+enum class ChartsFor { kAtlas, kPattern };
+
 /// The stages from Segment to Cut, one after the other (Section 3): `ids` and `seams` are set. They take the
 /// first `share` (0..1) of the progress. Flattenings made on the way are left in `known`.
-void MakeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, double share,
+void MakeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, ChartsFor use, double share,
                 Progress& progress, ChartIds& ids, SeamMask& seams, KnownFlattenings& known, Report& report);
 
 }  // namespace dcharts

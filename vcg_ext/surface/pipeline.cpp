@@ -81,6 +81,15 @@ void MergeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params,
     Merger<SurfaceMesh>(surface, params, progress).Run(ids);
 }
 
+// Returns the number of darts.
+int CutCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, ChartsFor use,
+              Progress& progress, ChartIds& ids, SeamMask& seams, KnownFlattenings& known) {
+  ChartCutter<SurfaceMesh> cutter(surface, params, progress);
+  int darts = cutter.Run(ids, seams, known);
+  if (use == ChartsFor::kAtlas) darts += cutter.LowerMeanStretch(ids, seams, known);
+  return darts;
+}
+
 void FinishAtlas(Workspace& work, ChartIds& ids, SeamMask& seams, const KnownFlattenings& known,
                  const Params& params, Progress& progress, double from, SurfaceChange& change) {
   WedgeTexcoords uv;
@@ -168,7 +177,7 @@ SurfaceChange Cut(const SurfaceData& mesh, const Params& params, Progress& progr
   KnownFlattenings known;
   {
     Stage stage("cut", "Cutting darts...", 0.02, 1, progress, change.report);
-    change.report.darts = ChartCutter<SurfaceMesh>(work.Surface(), params, progress).Run(ids, seams, known);
+    change.report.darts = CutCharts(work.Surface(), params, ChartsFor::kAtlas, progress, ids, seams, known);
   }
   const SeamMask kept = work.KeptBorders();
   work.ReleaseBorders(seams);
@@ -191,13 +200,13 @@ SurfaceChange Parameterize(const SurfaceData& mesh, const Params& params, Progre
     progress.Log("No seams that fit the charts: cut as D-Charts: Cut does by default.");
     Stage stage("cut", "Cutting darts...", 0.02, 0.1, progress, change.report);
     const Params defaults;
-    change.report.darts = ChartCutter<SurfaceMesh>(work.Surface(), defaults, progress).Run(ids, seams, known);
+    change.report.darts = CutCharts(work.Surface(), defaults, ChartsFor::kAtlas, progress, ids, seams, known);
   }
   FinishAtlas(work, ids, seams, known, params, progress, 0.1, change);
   return change;
 }
 
-void MakeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, double share,
+void MakeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, ChartsFor use, double share,
                 Progress& progress, ChartIds& ids, SeamMask& seams, KnownFlattenings& known, Report& report) {
   {
     Stage stage("segment", "Growing charts...", 0, 0.25 * share, progress, report);
@@ -218,7 +227,7 @@ void MakeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, 
     MergeCharts(surface, params, progress, ids);
   }
   Stage stage("cut", "Cutting darts...", 0.875 * share, share, progress, report);
-  report.darts = ChartCutter<SurfaceMesh>(surface, params, progress).Run(ids, seams, known);
+  report.darts = CutCharts(surface, params, use, progress, ids, seams, known);
 }
 
 SurfaceChange TextureAtlas(const SurfaceData& mesh, const Params& params, Progress& progress) {
@@ -229,7 +238,7 @@ SurfaceChange TextureAtlas(const SurfaceData& mesh, const Params& params, Progre
   SeamMask seams;
   KnownFlattenings known;
   constexpr double kShare = 0.8;
-  MakeCharts(work.Surface(), params, kShare, progress, ids, seams, known, change.report);
+  MakeCharts(work.Surface(), params, ChartsFor::kAtlas, kShare, progress, ids, seams, known, change.report);
   FinishAtlas(work, ids, seams, known, params, progress, kShare, change);
   if (params.seam_layer) work.WriteSeamLines(seams, change);
   return change;

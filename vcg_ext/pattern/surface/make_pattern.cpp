@@ -48,7 +48,7 @@ PatternResult PatternOfMesh(BaseMesh& base, const Params& params, double scale, 
   SeamMask seams;
   KnownFlattenings known;
   constexpr double kChartsShare = 0.6, kFlatShare = 0.75;
-  MakeCharts(surface, params, kChartsShare, progress, ids, seams, known, result.report);
+  MakeCharts(surface, params, ChartsFor::kPattern, kChartsShare, progress, ids, seams, known, result.report);
   if (base.Halves().IsSymmetric()) {
     progress.BeginStage("Mirroring charts...", kChartsShare, kChartsShare);
     if (MakeChartsSymmetric(surface, base.Halves(), params, progress, ids, seams)) {
