@@ -207,7 +207,7 @@ TEST(Invariance, ChartsAndStretchHardlyHangOnTheTriangles) {
     EXPECT_LE(*as_is.charts, 4) << name;
     EXPECT_NEAR(charts(test::Noisy(mesh, 0.05, 5)), *as_is.charts, 1) << name;
     EXPECT_NEAR(*quartered.charts, *as_is.charts, 1) << name;
-    EXPECT_NEAR(*quartered.l2_stretch, *as_is.l2_stretch, 0.002) << name;
+    EXPECT_NEAR(*quartered.l2_stretch, *as_is.l2_stretch, 0.003) << name;
   }
 }
 
