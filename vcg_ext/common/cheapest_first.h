@@ -7,8 +7,8 @@
 namespace dcharts {
 
 /// A priority queue of items with a cost each: the cheapest first, of equally cheap ones the least item.
-/// Equal pairs aside that is a total order, so it doesn't show that this is a heap with four children per
-/// node: half as deep as one with two, and the least of four is found without a branch to guess.
+/// Equal pairs aside that is a total order: it does not show that this is a heap with four children per
+/// node, half as deep as one with two; the least of four is found without a branch that is hard to guess.
 template <class Item>
 class CheapestFirst {
  public:
@@ -65,7 +65,7 @@ class CheapestFirst {
   static constexpr size_t kChildren = 4;
 
   static bool IsCheaper(const Entry& a, const Entry& b) {
-    return (a.cost < b.cost) | ((a.cost == b.cost) & (a.item < b.item));
+    return a.cost != b.cost ? a.cost < b.cost : a.item < b.item;
   }
 
   std::vector<Entry> entries_;

@@ -52,7 +52,7 @@ class Tournament {
     double key = std::numeric_limits<double>::infinity();
     int player = kNobody;
     bool operator<(const Node& other) const {
-      return (key < other.key) | ((key == other.key) & (player < other.player));
+      return key != other.key ? key < other.key : player < other.player;
     }
   };
 
