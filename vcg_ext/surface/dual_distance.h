@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <functional>
 #include <limits>
-#include <queue>
-#include <utility>
 #include <vector>
 
+#include "common/cheapest_first.h"
 #include "surface/surface_graph.h"
 
 namespace dcharts {
@@ -34,9 +32,9 @@ class DualDistance {
   template <class Allowed>
   void Extend(const std::vector<int>& sources, const Allowed& allowed, double limit = kFar) {
     for (int f : sources) Reach(f, 0);
-    while (!queue_.empty()) {
-      const auto [d, f] = queue_.top();
-      queue_.pop();
+    while (!queue_.IsEmpty()) {
+      const auto [d, f] = queue_.Top();
+      queue_.Pop();
       if (d > distance_[f]) continue;
       for (int h = 3 * f; h < 3 * f + 3; ++h) {
         const int g = surface_.Neighbour(h);
@@ -54,13 +52,13 @@ class DualDistance {
   void Reach(int face, double d) {
     if (distance_[face] == kFar) reached_.push_back(face);
     distance_[face] = d;
-    queue_.push({d, face});
+    queue_.Push({d, face});
   }
 
   const SurfaceGraph<MeshType>& surface_;
   std::vector<double> distance_;
   std::vector<int> reached_;
-  std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> queue_;
+  CheapestFirst<int> queue_;
 };
 
 }  // namespace dcharts

@@ -2,14 +2,18 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include "common/cheapest_first.h"
 #include "common/params.h"
 #include "common/pi.h"
+#include "common/tournament.h"
 #include "planar/cone_proxy.h"
 #include "surface/charts.h"
 #include "surface/seeds.h"
@@ -35,7 +39,7 @@ class Growth {
         alpha_(params.fitting_weight),
         beta_(params.compactness_weight),
         gamma_(params.straightness_weight),
-        distance_(surface.FaceCount(), 0) {}
+        contacts_(surface.FaceCount()) {}
 
   /// Grows every chart from its seed over the unassigned faces of `ids` with F < `bound`. Two charts with one
   /// seed: the later gets nothing. Faces that already have a chart keep it and are not grown from.
@@ -46,8 +50,11 @@ class Growth {
   /// The same for charts whose ids start at `first_id`.
   void FromSeeds(const std::vector<GrowingChart>& charts, int first_id, double bound, ChartIds& ids) {
     Begin(charts, first_id, bound, ids);
-    for (int c = 0; c < static_cast<int>(charts.size()); ++c)
-      if (ids[charts[c].seed] == kUnassigned) Assign(c, charts[c].seed, 0);
+    for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
+      if (ids[charts[c].seed] != kUnassigned) continue;
+      Take(c, charts[c].seed);
+      Push(c, NeighboursOf(c, charts[c].seed, 0));
+    }
     GrowAll();
   }
 
@@ -56,24 +63,40 @@ class Growth {
   void IntoHoles(const std::vector<GrowingChart>& charts, double bound, const std::vector<double>& distance,
                  ChartIds& ids) {
     Begin(charts, 0, bound, ids);
-    distance_ = distance;
     for (int f = 0; f < surface_.FaceCount(); ++f)
       if (ids[f] >= 0) area_[ids[f]] += surface_.Area(f);
     for (int f = 0; f < surface_.FaceCount(); ++f)
-      if (ids[f] >= 0) PushNeighbours(ids[f], f);
-    for (int c = 0; c < static_cast<int>(charts.size()); ++c) Refresh(c);
+      if (ids[f] >= 0) Push(ids[f], NeighboursOf(ids[f], f, distance[f]));
     GrowAll();
   }
 
  private:
-  struct Entry {
-    double cost;  // without the chart's factor A_C^-beta
-    double distance;
-    int face;
-    int contacts;                               // edges shared with the chart when pushed, as a bit mask
-    bool operator<(const Entry& other) const {  // for a heap with the cheapest on top
-      return cost != other.cost ? cost > other.cost : face > other.face;
+  // An item is a face and, in the last kEdgeBits bits, a mask of its edges that it shared with the chart when
+  // it was pushed. Costs are without the chart's factor A_C^-beta.
+  using Queue = CheapestFirst<std::uint64_t>;
+  static constexpr int kEdgeBits = 3;
+  static int FaceOf(std::uint64_t item) { return static_cast<int>(item >> kEdgeBits); }
+
+  // What a face's neighbours leave with it when a chart takes them.
+  struct Contacts {
+    std::array<double, 3> distance;        // D(S,t) of the face by way of edge i
+    std::array<int, 3> chart{-1, -1, -1};  // beyond edge i: a chart's stamp
+
+    unsigned With(int stamp) const {
+      return static_cast<unsigned>(chart[0] == stamp) | static_cast<unsigned>(chart[1] == stamp) << 1 |
+             static_cast<unsigned>(chart[2] == stamp) << 2;
     }
+    double Distance(int stamp) const {
+      double least = kNoBound;
+      for (int i = 0; i < 3; ++i) least = std::min(least, chart[i] == stamp ? distance[i] : kNoBound);
+      return least;
+    }
+  };
+
+  // Entries for the neighbours of a face: at most three.
+  struct Entries {
+    std::array<Queue::Entry, 3> entry;
+    int count = 0;
   };
 
   void Begin(const std::vector<GrowingChart>& charts, int first_id, double bound, ChartIds& ids) {
@@ -81,75 +104,83 @@ class Growth {
     first_id_ = first_id;
     bound_ = bound;
     ids_ = &ids;
-    area_.assign(charts.size(), 0);
-    queues_.resize(charts.size());
-    for (auto& queue : queues_) queue.clear();
-    leaves_ = 1;
-    while (leaves_ < static_cast<int>(charts.size())) leaves_ *= 2;
-    best_.assign(2 * leaves_, -1);
-    key_.assign(charts.size(), kNoBound);
+    const int count = static_cast<int>(charts.size());
+    // Stamps of every run are new: contacts of earlier runs say nothing.
+    first_stamp_ = next_stamp_;
+    if (first_stamp_ > std::numeric_limits<int>::max() - count) {
+      contacts_.assign(contacts_.size(), {});
+      first_stamp_ = 0;
+    }
+    next_stamp_ = first_stamp_ + count;
+    area_.assign(count, 0);
+    factor_.assign(count, 0);
+    queues_.resize(count);
+    for (auto& queue : queues_) queue.Clear();
   }
 
   void GrowAll() {
+    tournament_.Begin(static_cast<int>(queues_.size()));
+    for (int c = 0; c < static_cast<int>(queues_.size()); ++c)
+      if (DropStale(c)) tournament_.Enter(c, Key(c));
+    tournament_.Start();
     constexpr int kPollEvery = 65536;
-    for (int step = 0; !key_.empty() && best_[1] >= 0; ++step) {
+    for (int step = 0; tournament_.Winner() != Tournament::kNobody; ++step) {
       if (poll_ && step % kPollEvery == 0) poll_();
-      const int c = best_[1];
-      auto& queue = queues_[c];
-      if (Stale(c, queue.front())) {  // another chart took the face meanwhile
-        Refresh(c);
-        continue;
+      const int c = tournament_.Winner();
+      const auto item = queues_[c].Top().item;
+      if (!IsStale(c, item)) {  // else another chart took the face meanwhile
+        const int face = FaceOf(item);
+        Take(c, face);
+        ReplaceTop(c, NeighboursOf(c, face, contacts_[face].Distance(first_stamp_ + c)));
       }
-      const Entry entry = queue.front();
-      std::pop_heap(queue.begin(), queue.end());
-      queue.pop_back();
-      Assign(c, entry.face, entry.distance);
+      if (!DropStale(c))
+        tournament_.Leave();
+      else if (!tournament_.WinsAgain(MostKey(c)))
+        tournament_.Replay(Key(c));
     }
   }
 
-  void Assign(int c, int face, double distance) {
+  void Take(int c, int face) {
     (*ids_)[face] = first_id_ + c;
-    distance_[face] = distance;
     area_[c] += surface_.Area(face);
-    PushNeighbours(c, face);
-    Refresh(c);
   }
 
-  int Contacts(int c, int face) const {
-    int contacts = 0;
-    for (int i = 0; i < 3; ++i) {
-      const int g = surface_.Neighbour(3 * face + i);
-      if (g >= 0 && (*ids_)[g] == first_id_ + c) contacts |= 1 << i;
-    }
-    return contacts;
-  }
-
-  void PushNeighbours(int c, int face) {
+  // What becomes of the neighbours of a face that chart c has, at `distance` from its seed.
+  Entries NeighboursOf(int c, int face, double distance) {
     const ConeProxy& proxy = (*charts_)[c].proxy;
+    const int stamp = first_stamp_ + c;
+    Entries entries;
     for (int h = 3 * face; h < 3 * face + 3; ++h) {
-      const int g = surface_.Neighbour(h);
-      if (g < 0 || (*ids_)[g] != kUnassigned) continue;
+      const int o = surface_.Opposite(h);
+      if (o < 0) continue;
+      const int g = o / 3;
+      if ((*ids_)[g] != kUnassigned) continue;
+      Contacts& contacts = contacts_[g];
+      contacts.chart[o - 3 * g] = stamp;
+      contacts.distance[o - 3 * g] = distance + surface_.Step(h);
       const double error = FittingError(proxy, surface_.Normal(g));
       if (!(error < bound_)) continue;
-      Entry entry{0, kNoBound, g, Contacts(c, g)};
-      double inner = 0, outer = 0;
-      for (int i = 0; i < 3; ++i) {
-        const int k = 3 * g + i;
-        if (entry.contacts >> i & 1) {
-          inner += surface_.Length(k);
-          entry.distance = std::min(entry.distance, distance_[surface_.Neighbour(k)] + surface_.Step(k));
-        } else {
-          outer += surface_.Length(k);
-        }
-      }
-      // An F of 0 would make every cost 0 and the order arbitrary.
-      constexpr double kFloor = 1e-3;
-      const double straightness = inner > 0 ? outer / inner : (outer > 0 ? 1e6 : 0);
-      entry.cost = Power(error + kFloor, alpha_) * Power(kPi * entry.distance * entry.distance, beta_) *
-                   Power(straightness, gamma_);
-      queues_[c].push_back(entry);
-      std::push_heap(queues_[c].begin(), queues_[c].end());
+      entries.entry[entries.count++] = {Cost(error, stamp, g),
+                                        static_cast<std::uint64_t>(g) << kEdgeBits | contacts.With(stamp)};
     }
+    return entries;
+  }
+
+  double Cost(double error, int stamp, int face) const {
+    const Contacts& contacts = contacts_[face];
+    double inner = 0, outer = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double length = surface_.Length(3 * face + i);
+      const bool is_inner = contacts.chart[i] == stamp;
+      inner += is_inner ? length : 0;
+      outer += is_inner ? 0 : length;
+    }
+    // An F of 0 would make every cost 0 and the order arbitrary.
+    constexpr double kFloor = 1e-3;
+    const double straightness = inner > 0 ? outer / inner : (outer > 0 ? 1e6 : 0);
+    const double distance = contacts.Distance(stamp);
+    return Power(error + kFloor, alpha_) * Power(kPi * distance * distance, beta_) *
+           Power(straightness, gamma_);
   }
 
   // Most weights are 1.
@@ -157,40 +188,57 @@ class Growth {
     return exponent == 1 ? base : std::pow(base, exponent);
   }
 
-  bool Stale(int c, const Entry& entry) const {
-    return (*ids_)[entry.face] != kUnassigned || Contacts(c, entry.face) != entry.contacts;
+  void Push(int c, const Entries& entries) {
+    for (int k = 0; k < entries.count; ++k) queues_[c].Push(entries.entry[k]);
   }
 
-  // Drops what is stale from the top of chart c's queue and puts its cost into the tree of all charts' tops.
-  void Refresh(int c) {
-    auto& queue = queues_[c];
-    while (!queue.empty() && Stale(c, queue.front())) {
-      std::pop_heap(queue.begin(), queue.end());
-      queue.pop_back();
+  void ReplaceTop(int c, const Entries& entries) {
+    if (entries.count == 0) {
+      queues_[c].Pop();
+      return;
     }
+    queues_[c].ReplaceTop(entries.entry[0]);
+    for (int k = 1; k < entries.count; ++k) queues_[c].Push(entries.entry[k]);
+  }
+
+  bool IsStale(int c, std::uint64_t item) const {
+    constexpr std::uint64_t kEdges = (1 << kEdgeBits) - 1;
+    const int face = FaceOf(item);
+    return (*ids_)[face] != kUnassigned || contacts_[face].With(first_stamp_ + c) != (item & kEdges);
+  }
+
+  // From the top of chart c's queue; false when nothing is left.
+  bool DropStale(int c) {
+    Queue& queue = queues_[c];
+    while (!queue.IsEmpty() && IsStale(c, queue.Top().item)) queue.Pop();
+    return !queue.IsEmpty();
+  }
+
+  // What the top of chart c's queue costs.
+  double Key(int c) {
     constexpr double kTiny = 1e-30;  // a seed without area
-    key_[c] = queue.empty() ? kNoBound : queue.front().cost * std::pow(std::max(area_[c], kTiny), -beta_);
-    int node = leaves_ + c;
-    best_[node] = queue.empty() ? -1 : c;
-    for (node /= 2; node >= 1; node /= 2) {
-      const int left = best_[2 * node], right = best_[2 * node + 1];
-      best_[node] = right < 0 || (left >= 0 && key_[left] <= key_[right]) ? left : right;
-    }
+    factor_[c] = std::pow(std::max(area_[c], kTiny), -beta_);
+    return queues_[c].Top().cost * factor_[c];
+  }
+
+  // No less than Key(c), and without its power: areas only grow, so factors only get less.
+  double MostKey(int c) const {
+    constexpr double kRounding = 1 + 1e-9;
+    return queues_[c].Top().cost * factor_[c] * kRounding;
   }
 
   const SurfaceGraph<MeshType>& surface_;
   const std::function<void()> poll_;
   double alpha_, beta_, gamma_;
-  std::vector<double> distance_;  // D(S,t)
+  std::vector<Contacts> contacts_;  // of each face
+  int first_stamp_ = 0, next_stamp_ = 0;
   const std::vector<GrowingChart>* charts_ = nullptr;
   ChartIds* ids_ = nullptr;
   int first_id_ = 0;
   double bound_ = 0;
-  std::vector<double> area_;
-  std::vector<std::vector<Entry>> queues_;
-  int leaves_ = 1;
-  std::vector<int> best_;    // binary tree over the charts: which has the cheapest top
-  std::vector<double> key_;  // cost of each chart's top
+  std::vector<double> area_, factor_;  // of each chart; factors may be those of an area of earlier
+  std::vector<Queue> queues_;
+  Tournament tournament_;  // of the charts, by their cheapest faces
 };
 
 }  // namespace dcharts

@@ -115,24 +115,35 @@ class Seeds {
   }
 
   // From the seeds so far; in components without one, the extremity of them all.
-  int Farthest() const {
+  int Farthest() {
     if (distance_.Reached().size() < static_cast<size_t>(surface_.FaceCount())) {
       const int unreached = Extremity([&](int f) { return distance_[f] == DualDistance<MeshType>::kFar; });
       if (unreached >= 0) return unreached;
     }
+    // Distances only get less: a block of faces is looked at where it was farther than all before it.
+    constexpr int kBlock = 64;
+    block_farthest_.resize(surface_.FaceCount() / kBlock + 1, DualDistance<MeshType>::kFar);
     int best = 0;
     double farthest = -1;
-    for (int f = 0; f < surface_.FaceCount(); ++f)
-      if (surface_.Area(f) > 0 && distance_[f] > farthest) {
-        farthest = distance_[f];
-        best = f;
-      }
+    for (int begin = 0; begin < surface_.FaceCount(); begin += kBlock) {
+      double& of_block = block_farthest_[begin / kBlock];
+      if (of_block <= farthest) continue;
+      of_block = -1;
+      for (int f = begin; f < std::min(begin + kBlock, surface_.FaceCount()); ++f)
+        if (surface_.Area(f) > 0 && distance_[f] > of_block) {
+          of_block = distance_[f];
+          if (of_block <= farthest) continue;
+          farthest = of_block;
+          best = f;
+        }
+    }
     return best;
   }
 
   const SurfaceGraph<MeshType>& surface_;
   DualDistance<MeshType> distance_;  // from all of farthest_
   std::vector<GrowingChart> farthest_;
+  std::vector<double> block_farthest_;  // of each block of faces, or more
   mutable std::vector<double> errors_, sorted_;
 };
 
