@@ -127,9 +127,11 @@ struct ChartGroups {
         patches.push_back(parts.CoarsePatch(some));
       }
     std::vector<ChartTrial> made(open.size());
-    ParallelFor(static_cast<int>(open.size()), progress, [&](int k, const std::function<void()>& poll) {
-      made[k] = TryChart(patches[k], CoarseBound(), poll);
-    });
+    ParallelForLargestFirst(
+        static_cast<int>(open.size()), progress, [&](int k) { return patches[k].faces.size(); },
+        [&](int k, const std::function<void()>& poll) {
+          made[k] = TryChart(patches[k], CoarseBound(), poll);
+        });
     for (size_t k = 0; k < open.size(); ++k) Record(*open[k], made[k]);
   }
 

@@ -169,17 +169,17 @@ class CheckedMerger {
     constexpr size_t kMostOverlaps = 1000;
     std::vector<char> fits(patches.size());
     std::vector<std::vector<std::pair<int, int>>> overlaps(patches.size());
-    ParallelFor(static_cast<int>(patches.size()), groups_.progress,
-                [&](int k, const std::function<void()>& poll) {
-                  double cut_length = 0;
-                  const ChartPatch open = Opened(patches[k], cut_length);
-                  TrialOptions options;
-                  options.l2_bound = groups_.bound;
-                  const TrialFlattening flat = TrialFlatten(open.mesh, options, poll);
-                  if (flat.ok)
-                    overlaps[k] = OverlappingPairs(OnGrid(flat.uv, open.mesh.triangles), kMostOverlaps);
-                  fits[k] = flat.ok && overlaps[k].empty();
-                });
+    ParallelForLargestFirst(
+        static_cast<int>(patches.size()), groups_.progress, [&](int k) { return patches[k].faces.size(); },
+        [&](int k, const std::function<void()>& poll) {
+          double cut_length = 0;
+          const ChartPatch open = Opened(patches[k], cut_length);
+          TrialOptions options;
+          options.l2_bound = groups_.bound;
+          const TrialFlattening flat = TrialFlatten(open.mesh, options, poll);
+          if (flat.ok) overlaps[k] = OverlappingPairs(OnGrid(flat.uv, open.mesh.triangles), kMostOverlaps);
+          fits[k] = flat.ok && overlaps[k].empty();
+        });
     std::vector<Failure> failures;
     for (size_t k = 0; k < unverified.size(); ++k) {
       groups_.charts[unverified[k]].verified = fits[k];
