@@ -13,6 +13,7 @@
 #include "planar/distortion.h"
 #include "planar/lay_apart.h"
 #include "planar/map_from_coarser.h"
+#include "planar/normalized_chart.h"
 #include "planar/overlap.h"
 #include "planar/trial_flatten.h"
 #include "surface/carried_map.h"
@@ -72,17 +73,20 @@ std::vector<double> Smoothed(const ChartPatch& patch, std::vector<double> value)
 
 bool HasFinish(const DartGoal& goal) { return std::isfinite(goal.linf_stretch); }
 
-// As the atlas will have it.
-Flattening FlatWithFinish(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll) {
+// As the atlas will have it. `coarser`: see FlattenOptions.
+Flattening FlatWithFinish(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
+                          const CoarseChart* coarser = nullptr) {
   FlattenOptions options;
+  options.coarser = coarser;
   options.l2_bound = goal.l2_stretch;
   return Flatten(patch.mesh, options, poll);
 }
 
 // The quick way, without the finish; `start` may be null.
-Flattening FlatWithoutFinish(const ChartPatch& patch, const Points2* start,
-                             const std::function<void()>& poll) {
+Flattening FlatWithoutFinish(const ChartPatch& patch, const Points2* start, const std::function<void()>& poll,
+                             const CoarseChart* coarser = nullptr) {
   TrialOptions options;
+  options.coarser = coarser;
   options.start = start;
   TrialFlattening trial = TrialFlatten(patch.mesh, options, poll);
   Flattening flat;
@@ -94,8 +98,10 @@ Flattening FlatWithoutFinish(const ChartPatch& patch, const Points2* start,
   return flat;
 }
 
-Flattening FlatAsAsked(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll) {
-  return HasFinish(goal) ? FlatWithFinish(patch, goal, poll) : FlatWithoutFinish(patch, nullptr, poll);
+Flattening FlatAsAsked(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
+                       const CoarseChart* coarser = nullptr) {
+  return HasFinish(goal) ? FlatWithFinish(patch, goal, poll, coarser)
+                         : FlatWithoutFinish(patch, nullptr, poll, coarser);
 }
 
 bool Reached(const Flattening& flat, const DartGoal& goal) {
@@ -329,10 +335,18 @@ DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const s
   constexpr int kEnoughFaces = 8000;
   constexpr double kHopeless = 1.2;  // of the goal's L2 - 1
   DartedChart chart = Uncut(patch);
-  const CoarseChart coarse(patch.mesh, kEnoughFaces, poll);
+  // Half of the way to the coarser chart is that which flattening the chart without darts goes.
+  const NormalizedChart normalized = Normalized(patch.mesh);
+  const CoarseChart coarser = CoarserChart(normalized.mesh, poll);
+  const CoarseChart coarse(coarser.Mesh(), kEnoughFaces, poll);
   if (!IsLargeChart(coarse.Mesh())) {
-    const DartedChart darted =
-        CutStretchDarts({coarse.SourceFaces(), coarse.Mesh(), coarse.Opposite()}, nullptr, goal, poll);
+    ChartPatch small{coarse.SourceFaces(), coarse.Mesh(), coarse.Opposite()};
+    for (int& f : small.faces) f = coarser.SourceFaces()[f];
+    std::vector<int> source = coarse.SourceVertices();
+    for (int& v : source) v = coarser.SourceVertices()[v];
+    for (int v = 0; v < small.VertexCount(); ++v)
+      small.mesh.positions.row(v) = patch.mesh.positions.row(source[v]);
+    const DartedChart darted = CutStretchDarts(small, nullptr, goal, poll);
     if (goal.may_give_up && !(darted.flat.l2_stretch - 1 <= kHopeless * (goal.l2_stretch - 1))) {
       chart.flat.why = "A coarser chart is stretched too much.";
       return chart;
@@ -340,20 +354,19 @@ DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const s
     std::vector<int> corner_at(patch.VertexCount());  // that starts at a vertex
     for (int h = 0; h < patch.HalfEdgeCount(); ++h) corner_at[patch.Vertex(h)] = h;
     for (int tip : darted.tips) {
-      const int vertex = coarse.SourceVertices()[coarse.Mesh().triangles(tip / 3, tip % 3)];
       PatchPaths paths(chart.patch);
       paths.Run(paths.BoundaryVertices(), true);
-      chart.tips.push_back(corner_at[vertex]);
+      chart.tips.push_back(corner_at[source[coarse.Mesh().triangles(tip / 3, tip % 3)]]);
       const std::vector<int> cut = paths.Path(chart.patch.Vertex(chart.tips.back()));
       chart.edges.insert(chart.edges.end(), cut.begin(), cut.end());
       chart.count += !cut.empty();
       chart.patch = CutOpen(chart.patch, cut);
     }
   }
-  chart.flat = FlatAsAsked(chart.patch, goal, poll);
+  chart.flat = FlatAsAsked(chart.patch, goal, poll, chart.count == 0 ? &coarser : nullptr);
   if (chart.count == 0 || (chart.flat.ok && !Overlaps(chart))) return chart;
   chart = Uncut(patch);
-  chart.flat = FlatAsAsked(patch, goal, poll);
+  chart.flat = FlatAsAsked(patch, goal, poll, &coarser);
   return chart;
 }
 
