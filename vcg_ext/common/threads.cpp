@@ -25,7 +25,7 @@ namespace {
 // Those of all calls, one within another too. A helper counts until it has no more work, not until all have.
 std::atomic<int> helpers_at_work{0};
 
-// How many of the helpers wanted are free.
+// How many of the helpers wanted are free; they are at work from now on.
 int TakeHelpers(int wanted) {
   const int most = ThreadCount() - 1;
   int at_work = helpers_at_work;
@@ -76,6 +76,8 @@ class HeldThreads {
 };
 
 }  // namespace
+
+int FreeThreads() { return std::max(0, ThreadCount() - 1 - helpers_at_work); }
 
 // Not OpenMP: where a thread can't be made, its library ends the program.
 void OnThreads(int helpers, const std::function<void(bool)>& work) {

@@ -9,6 +9,9 @@ namespace dcharts {
 /// there are cores. At least 1.
 int ThreadCount();
 
+/// How many helpers a call of OnThreads would get now.
+int FreeThreads();
+
 /// Calls work(true) on this thread and at the same time work(false) on `helpers` others. There are fewer
 /// where more than ThreadCount() threads would be at work in all, as within such a call, and where the system
 /// gives fewer or has no memory for them. Returns when all have ended; `work` must not throw.
