@@ -14,6 +14,7 @@
 
 #include "planar/flatten.h"
 #include "surface_fixture.h"
+#include "thread_count.h"
 
 namespace dcharts {
 namespace {
@@ -277,6 +278,26 @@ TEST(Coarsen, IsDeterministicAndHardlyMindsRotation) {
                         third.source_vertex.end(), std::back_inserter(common));
   EXPECT_GT(static_cast<double>(common.size()), 0.95 * static_cast<double>(first.source_vertex.size()))
       << "all but ties";
+}
+
+// Large enough to be coarsened in blocks.
+TEST(Coarsen, ALargeSurfaceComesOutTheSameOnAnyNumberOfThreads) {
+  const TestSurface surface(shapes::Grid(200, 200));
+  ASSERT_GT(surface->FaceCount(), 70000);
+  const ChartIds ids = Octants(surface);
+  for (const int target : {surface->FaceCount() / 4, 2000}) {
+    std::vector<CoarseSurface> results;
+    for (int count : {1, 3}) {
+      const test::Threads threads(count);
+      results.push_back(CoarsenCharts(*surface, ids, target));
+    }
+    EXPECT_EQ(results[0].source_vertex, results[1].source_vertex);
+    EXPECT_EQ(results[0].source_face, results[1].source_face);
+    EXPECT_EQ(results[0].heir, results[1].heir);
+    const Coarsened result(*surface, ids, target);
+    EXPECT_LE(result.graph.FaceCount(), target);
+    ExpectSound(*surface, ids, result);
+  }
 }
 
 TEST(Coarsen, FacesWithoutAreaDoNoHarm) {

@@ -59,6 +59,26 @@ TEST(Threads, EveryItemIsDoneOnce) {
   }
 }
 
+TEST(Threads, LoopsWithinLoopsTakeNoMoreThanThereAre) {
+  for (int count : {1, 2, 5}) {
+    const test::Threads threads(count);
+    std::atomic<int> at_work{0}, most{0};
+    std::vector<int> done(20 * 50, 0);
+    Progress progress;
+    ParallelFor(20, progress, [&](int k, const auto& poll) {
+      InParallel(50, poll, [&](int i, const auto&) {
+        const int now = ++at_work;
+        for (int known = most; now > known && !most.compare_exchange_weak(known, now);) continue;
+        ++done[50 * k + i];
+        --at_work;
+      });
+    });
+    EXPECT_LE(most, count);
+    EXPECT_EQ(done, std::vector<int>(done.size(), 1));
+    EXPECT_EQ(FreeThreads(), count - 1);
+  }
+}
+
 TEST(Threads, AnErrorStopsAllAndComesOut) {
   for (int count : {1, 2, 8}) {
     const test::Threads threads(count);

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <exception>
 #include <functional>
 #include <mutex>
-#include <thread>
+#include <numeric>
+#include <vector>
 
 #include "common/errors.h"
 #include "common/progress.h"
@@ -15,25 +17,22 @@
 
 namespace dcharts {
 
-/// Calls work(k, poll) for k = 0..count-1, on ThreadCount() threads; each call must write
-/// only what is its own, so that the result doesn't depend on the number of threads. `poll` is for the work
-/// to call now and then: it asks the progress (on the calling thread) whether to go on. A stage may have any
-/// number of such loops: each takes two thirds of what is left of the stage's progress. An exception stops
-/// all and is rethrown.
-template <class Work>
-void ParallelFor(int count, Progress& progress, const Work& work) {
+/// Calls work(k, poll) for k = 0..count-1, on this thread and those that are free; each call must write only
+/// what is its own, so that the result doesn't depend on the number of threads. `poll` is for the work to
+/// call now and then: on the calling thread it calls ask(items done), which may throw; on others it ends the
+/// work once another has thrown. An exception stops all and is rethrown.
+template <class Ask, class Work>
+void ShareOut(int count, const Ask& ask, const Work& work) {
   std::atomic<bool> stop{false};
   std::atomic<int> next{0}, done{0};
   std::mutex mutex;
+  std::condition_variable ended;
   std::exception_ptr failure;
-  const double before = progress.Done(), share = 2.0 / 3 * (1 - before);
   const auto work_until_empty = [&](bool asks) {
     try {
       const std::function<void()> poll = [&] {
         if (stop) throw Cancelled();
-        if (!asks) return;
-        progress.Update(before + share * done / count);
-        progress.Poll();
+        if (asks) ask(static_cast<int>(done));
       };
       for (int k = next++; k < count && !stop; k = next++) {
         poll();
@@ -43,16 +42,53 @@ void ParallelFor(int count, Progress& progress, const Work& work) {
       // The calling thread alone may talk to the host: it stays awake for the others.
       while (asks && done < count && !stop) {
         poll();
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        std::unique_lock<std::mutex> lock(mutex);
+        ended.wait_for(lock, std::chrono::milliseconds(1), [&] { return done >= count || stop; });
       }
     } catch (...) {
       const std::lock_guard<std::mutex> lock(mutex);
       if (!failure) failure = std::current_exception();
       stop = true;
     }
+    if (!asks) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      ended.notify_one();
+    }
   };
   OnThreads(std::min(ThreadCount(), count) - 1, work_until_empty);
   if (failure) std::rethrow_exception(failure);
+}
+
+/// ShareOut for a stage, whose progress is asked whether to go on. A stage may have any number of such loops:
+/// each takes two thirds of what is left of the stage's progress.
+template <class Work>
+void ParallelFor(int count, Progress& progress, const Work& work) {
+  const double before = progress.Done(), share = 2.0 / 3 * (1 - before);
+  const auto ask = [&](int done) {
+    progress.Update(before + share * done / count);
+    progress.Poll();
+  };
+  ShareOut(count, ask, work);
+}
+
+/// ParallelFor with the largest item first, so that all threads end at about the same time.
+template <class Size, class Work>
+void ParallelForLargestFirst(int count, Progress& progress, const Size& size, const Work& work) {
+  std::vector<int> order(static_cast<std::size_t>(count));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return size(a) > size(b); });
+  ParallelFor(count, progress, [&](int k, const std::function<void()>& poll) {
+    work(order[static_cast<std::size_t>(k)], poll);
+  });
+}
+
+/// ShareOut for a part of a work that may run beside others; `poll`, which may be null, is that work's.
+template <class Work>
+void InParallel(int count, const std::function<void()>& poll, const Work& work) {
+  const auto ask = [&](int) {
+    if (poll) poll();
+  };
+  ShareOut(count, ask, work);
 }
 
 }  // namespace dcharts

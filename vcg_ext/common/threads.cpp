@@ -22,6 +22,20 @@ int ThreadCount() {
 
 namespace {
 
+// Those of all calls, one within another too. A helper counts until it has no more work, not until all have.
+std::atomic<int> helpers_at_work{0};
+
+// How many of the helpers wanted are free; they are at work from now on.
+int TakeHelpers(int wanted) {
+  const int most = ThreadCount() - 1;
+  int at_work = helpers_at_work;
+  for (;;) {
+    const int taken = std::min(wanted, most - at_work);
+    if (taken <= 0) return 0;
+    if (helpers_at_work.compare_exchange_weak(at_work, at_work + taken)) return taken;
+  }
+}
+
 // Starts threads and keeps them waiting until all there are have been started. A thread's first exception
 // needs memory of its own, and where there is none the C library ends the program. So each thread takes it
 // before any is at work, from what is let go of just before: so much that it comes from the system and goes
@@ -39,12 +53,14 @@ class HeldThreads {
           ++ready_;
           while (!go_) std::this_thread::yield();
           work(false);
+          --helpers_at_work;
         });
         while (ready_ <= k) std::this_thread::yield();
       }
     } catch (const std::system_error&) {
     } catch (const std::bad_alloc&) {
     }
+    helpers_at_work -= count - static_cast<int>(threads_.size());
     go_ = true;
   }
   HeldThreads(const HeldThreads&) = delete;
@@ -61,9 +77,11 @@ class HeldThreads {
 
 }  // namespace
 
+int FreeThreads() { return std::max(0, ThreadCount() - 1 - helpers_at_work); }
+
 // Not OpenMP: where a thread can't be made, its library ends the program.
 void OnThreads(int helpers, const std::function<void(bool)>& work) {
-  const HeldThreads threads(std::max(0, helpers), work);
+  const HeldThreads threads(TakeHelpers(helpers), work);
   work(true);
 }
 

@@ -9,9 +9,12 @@ namespace dcharts {
 /// there are cores. At least 1.
 int ThreadCount();
 
-/// Calls work(true) on this thread and at the same time work(false) on `helpers` others. Where the system
-/// gives fewer threads, or has no memory for them, there are fewer. Returns when all have ended; `work` must
-/// not throw.
+/// How many helpers a call of OnThreads would get now.
+int FreeThreads();
+
+/// Calls work(true) on this thread and at the same time work(false) on `helpers` others. There are fewer
+/// where more than ThreadCount() threads would be at work in all, as within such a call, and where the system
+/// gives fewer or has no memory for them. Returns when all have ended; `work` must not throw.
 void OnThreads(int helpers, const std::function<void(bool)>& work);
 
 }  // namespace dcharts

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/half_edge.h"
 #include "planar/vertex_descent.h"
@@ -78,30 +79,22 @@ CoarseChart::CoarseChart(const ChartMesh& chart, int target_faces, const std::fu
   }
   surface.vertex.assign(chart.triangles.data(), chart.triangles.data() + 3 * face_count);
   surface.opposite = Opposites(chart.triangles);
-  const CollapsingMesh left =
-      Coarsened(surface, ChartIds(At(face_count), 0), target_faces, &history_, poll).mesh;
+  CoarsenedSurface left = Coarsened(surface, ChartIds(At(face_count), 0), target_faces, &history_, poll);
+  source_face_ = std::move(left.source_face);
+  opposite_ = std::move(left.opposite);
   std::vector<int> new_vertex(surface.positions.size(), -1);
+  for (int v : left.vertex) new_vertex[At(v)] = 0;
   for (int v = 0; v < chart.positions.rows(); ++v) {
-    if (!left.VertexLives(v)) continue;
+    if (new_vertex[At(v)] < 0) continue;
     new_vertex[At(v)] = static_cast<int>(source_.size());
     source_.push_back(v);
   }
   mesh_.positions.resize(static_cast<int>(source_.size()), 3);
   for (int v = 0; v < static_cast<int>(source_.size()); ++v)
     mesh_.positions.row(v) = chart.positions.row(source_[At(v)]);
-  std::vector<int> new_face(At(face_count), -1);
-  for (int f = 0; f < face_count; ++f) {
-    if (!left.FaceLives(f)) continue;
-    new_face[At(f)] = static_cast<int>(source_face_.size());
-    source_face_.push_back(f);
-  }
-  mesh_.triangles.resize(left.FaceCount(), 3);
-  for (int f = 0; f < left.FaceCount(); ++f)
-    for (int i = 0; i < 3; ++i) {
-      const int h = 3 * source_face_[At(f)] + i, o = left.Opposite(h);
-      mesh_.triangles(f, i) = new_vertex[At(left.Vertex(h))];
-      opposite_.push_back(o < 0 ? -1 : 3 * new_face[At(o / 3)] + o % 3);
-    }
+  mesh_.triangles.resize(static_cast<int>(source_face_.size()), 3);
+  for (int h = 0; h < static_cast<int>(left.vertex.size()); ++h)
+    mesh_.triangles(h / 3, h % 3) = new_vertex[At(left.vertex[At(h)])];
 }
 
 std::optional<PlanePoints> CoarseChart::Continued(const Points2& uv,

@@ -128,10 +128,12 @@ Flattening FlattenLarge(const NormalizedChart& normalized, const FlattenOptions&
   Flattening coarse;
   RestShapes shapes = RestShapesOf(normalized.mesh);
   const auto flatten = [&](const ChartMesh& chart) {
-    coarse = Flatten(chart, options, poll);
+    FlattenOptions of_coarse = options;
+    of_coarse.coarser = nullptr;
+    coarse = Flatten(chart, of_coarse, poll);
     return coarse.uv;
   };
-  std::optional<PlanePoints> uv = MapFromCoarser(normalized.mesh, flatten, poll, shapes);
+  std::optional<PlanePoints> uv = MapFromCoarser(normalized.mesh, options.coarser, flatten, poll, shapes);
   if (!uv) return Failure(coarse.why);
   const Triangles& triangles = normalized.mesh.triangles;
   const VertexSweeps sweeps(static_cast<int>(uv->size()), triangles, shapes);

@@ -272,7 +272,7 @@ Points2 FlatApart(const ChartMesh& chart, double gap, const std::function<void()
   if (IsLargeChart(chart)) {
     RestShapes shapes = RestShapesOf(normalized.mesh);
     const auto flatten = [&](const ChartMesh& coarse) { return FlatApart(coarse, gap, poll); };
-    const std::optional<PlanePoints> map = MapFromCoarser(normalized.mesh, flatten, poll, shapes);
+    const std::optional<PlanePoints> map = MapFromCoarser(normalized.mesh, nullptr, flatten, poll, shapes);
     return map ? ToPoints(*map, normalized.scale) : Points2();
   }
   const TrialFlattening flat = TrialFlatten(chart, {}, poll);

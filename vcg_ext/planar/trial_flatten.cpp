@@ -110,10 +110,12 @@ TrialFlattening TrialFlatten(const ChartMesh& chart, const TrialOptions& options
     const auto flatten = [&](const ChartMesh& mesh) {
       TrialOptions of_coarse = options;
       of_coarse.start = nullptr;
+      of_coarse.coarser = nullptr;
       coarse = TrialFlatten(mesh, of_coarse, poll);
       return coarse.ok ? coarse.uv : Points2();
     };
-    const std::optional<PlanePoints> uv = MapFromCoarser(normalized.mesh, flatten, poll, shapes);
+    const std::optional<PlanePoints> uv =
+        MapFromCoarser(normalized.mesh, options.coarser, flatten, poll, shapes);
     if (uv) return Judged(Measured(normalized, shapes, *uv), options, rim);
     if (coarse.rejected || coarse.overlaps > 0 || !coarse.why.empty()) return coarse;
   }

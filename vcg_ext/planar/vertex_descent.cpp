@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/parallel.h"
+#include "common/union_find.h"
 #include "planar/line_search.h"
 #include "planar/vertex_block_system.h"
 
@@ -128,27 +130,54 @@ void VertexSweeps::EvenOut(const std::function<void()>& poll, PlanePoints& uv) c
   }
 }
 
-std::vector<double> VertexSweeps::Contractions(const PlanePoints& uv) const {
+std::vector<double> VertexSweeps::Contractions(const std::function<void()>& poll,
+                                               const PlanePoints& uv) const {
+  constexpr int kBlock = 16384;
+  const int count = static_cast<int>(shapes_.size());
   std::vector<double> contractions(shapes_.size(), 0);
-  for (int t = 0; t < static_cast<int>(shapes_.size()); ++t) {
-    if (shapes_[At(t)].sliver) continue;
-    const Complex z = uv[At(triangles_(t, 0))];
-    contractions[At(t)] =
-        TriangleContraction(shapes_[At(t)], uv[At(triangles_(t, 1))] - z, uv[At(triangles_(t, 2))] - z);
-  }
+  InParallel((count + kBlock - 1) / kBlock, poll, [&](int block, const std::function<void()>&) {
+    for (int t = kBlock * block; t < std::min(kBlock * (block + 1), count); ++t) {
+      if (shapes_[At(t)].sliver) continue;
+      const Complex z = uv[At(triangles_(t, 0))];
+      contractions[At(t)] =
+          TriangleContraction(shapes_[At(t)], uv[At(triangles_(t, 1))] - z, uv[At(triangles_(t, 2))] - z);
+    }
+  });
   return contractions;
+}
+
+std::vector<std::vector<int>> VertexSweeps::Clusters(const std::vector<int>& vertices) const {
+  std::vector<int> place(first_.size() - 1, -1);
+  for (std::size_t k = 0; k < vertices.size(); ++k) place[At(vertices[k])] = static_cast<int>(k);
+  UnionFind sets(static_cast<int>(vertices.size()));
+  for (std::size_t k = 0; k < vertices.size(); ++k)
+    for (int c = first_[At(vertices[k])]; c < first_[At(vertices[k]) + 1]; ++c)
+      for (int i = 0; i < 3; ++i) {
+        const int other = place[At(triangles_(corners_[At(c)] / 3, i))];
+        if (other >= 0) sets.Join(static_cast<int>(k), other);
+      }
+  std::vector<std::vector<int>> clusters;
+  std::vector<int> cluster(vertices.size(), -1);
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    int& c = cluster[At(sets.Find(static_cast<int>(k)))];
+    if (c < 0) {
+      c = static_cast<int>(clusters.size());
+      clusters.emplace_back();
+    }
+    clusters[At(c)].push_back(vertices[k]);
+  }
+  return clusters;
 }
 
 void VertexSweeps::LowerWorst(const std::function<void()>& poll, PlanePoints& uv) const {
   constexpr int kMostRounds = 60, kSweepsPerRound = 4, kPatience = 3;
   constexpr double kReference = 0.85, kLittle = 0.01;  // of the worst
   constexpr std::size_t kMost = 10;  // one vertex of so many moves: only a few places are bad
-  std::vector<FanTriangle> fan;
   double least = std::numeric_limits<double>::infinity();
   int without_gain = 0;
   for (int round = 0; round < kMostRounds; ++round) {
     if (poll) poll();
-    const std::vector<double> contractions = Contractions(uv);
+    const std::vector<double> contractions = Contractions(poll, uv);
     const double worst = *std::max_element(contractions.begin(), contractions.end());
     without_gain = worst < (1 - kLittle) * least ? 0 : without_gain + 1;
     if (without_gain == kPatience || !(worst > 0)) return;
@@ -161,8 +190,12 @@ void VertexSweeps::LowerWorst(const std::function<void()>& poll, PlanePoints& uv
     }
     if (vertices.empty()) return;
     const StretchEnergy energy{StretchEnergy::Kind::kSanderTail, 12, kReference * worst};
-    for (int sweep = 0; sweep < kSweepsPerRound; ++sweep)
-      for (int v : vertices) Step(energy, v, fan, uv);
+    const std::vector<std::vector<int>> clusters = Clusters(vertices);
+    InParallel(static_cast<int>(clusters.size()), poll, [&](int k, const std::function<void()>&) {
+      std::vector<FanTriangle> fan;
+      for (int sweep = 0; sweep < kSweepsPerRound; ++sweep)
+        for (int v : clusters[At(k)]) Step(energy, v, fan, uv);
+    });
   }
 }
 

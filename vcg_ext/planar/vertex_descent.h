@@ -46,7 +46,11 @@ class VertexSweeps {
   /// One step of a vertex; returns how much energy it gained.
   double Step(const StretchEnergy& energy, int vertex, std::vector<FanTriangle>& fan, PlanePoints& uv) const;
   /// Per triangle TriangleContraction, 0 for slivers.
-  std::vector<double> Contractions(const PlanePoints& uv) const;
+  std::vector<double> Contractions(const std::function<void()>& poll, const PlanePoints& uv) const;
+
+  /// Vertices in groups that hang together over triangles; in each they keep their order. A step of a vertex
+  /// in one group does nothing to another.
+  std::vector<std::vector<int>> Clusters(const std::vector<int>& vertices) const;
 
   /// The vertices of triangles contracted by more than `bound`, and their neighbours.
   std::vector<int> VerticesNear(const std::vector<double>& contractions, double bound) const;

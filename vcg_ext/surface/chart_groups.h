@@ -114,11 +114,21 @@ struct ChartGroups {
   const ChartTrial& Trial(const std::vector<int>& some) {
     static const ChartTrial kNotTried;
     const auto known = trials.find(some);
-    if (known != trials.end() && (known->second.second.flat || known->second.first >= CoarseBound()))
-      return known->second.second;
-    if (known == trials.end() && HoldsOverlap(some)) return kNotTried;
+    if (!IsToBeTried(some)) return known == trials.end() ? kNotTried : known->second.second;
     progress.Poll();
-    return Record(some, TryChart(parts.CoarsePatch(some), CoarseBound(), Poll()));
+    const auto made = ahead.find(some);
+    if (made == ahead.end() || made->second.first != CoarseBound())
+      return Record(some, TryChart(parts.CoarsePatch(some), CoarseBound(), Poll()));
+    const ChartTrial trial = made->second.second;
+    ahead.erase(made);
+    return Record(some, trial);
+  }
+
+  /// Trial() has to make the trial of these parts, or takes one that was made ahead.
+  bool IsToBeTried(const std::vector<int>& some) const {
+    const auto known = trials.find(some);
+    if (known == trials.end()) return !HoldsOverlap(some);
+    return !known->second.second.flat && known->second.first < CoarseBound();
   }
 
   /// These parts are never to be a chart.
@@ -134,9 +144,11 @@ struct ChartGroups {
         patches.push_back(parts.CoarsePatch(some));
       }
     std::vector<ChartTrial> made(open.size());
-    ParallelFor(static_cast<int>(open.size()), progress, [&](int k, const std::function<void()>& poll) {
-      made[k] = TryChart(patches[k], CoarseBound(), poll);
-    });
+    ParallelForLargestFirst(
+        static_cast<int>(open.size()), progress, [&](int k) { return patches[k].faces.size(); },
+        [&](int k, const std::function<void()>& poll) {
+          made[k] = TryChart(patches[k], CoarseBound(), poll);
+        });
     for (size_t k = 0; k < open.size(); ++k) Record(*open[k], made[k]);
   }
 
@@ -236,6 +248,7 @@ struct ChartGroups {
   double bound = kNoBound;  ///< on the L2 stretch of a chart
   double seam_share = 1;    ///< of the price of seams: merges are taken in another order when it is less
   std::map<std::vector<int>, std::pair<double, ChartTrial>> trials;  ///< of parts: bound, trial
+  std::map<std::vector<int>, std::pair<double, ChartTrial>> ahead;   ///< the same, not asked for yet
   std::vector<std::vector<int>> overlapping;                         ///< parts whose chart overlapped itself
   bool overlaps_stay = true;                                         ///< what holds such parts isn't tried
   std::set<std::pair<int, int>> apart;  ///< parts that are not to be in one chart: they would overlap, or a

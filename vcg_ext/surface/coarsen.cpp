@@ -10,16 +10,16 @@ namespace dcharts {
 
 CoarseSurface CoarsenFanned(const FannedSurface& surface, const ChartIds& ids, int target_faces,
                             const std::function<void()>& poll) {
-  CoarsenedSurface coarsened = Coarsened(surface, ids, target_faces, nullptr, poll);
-  const CollapsingMesh& left = coarsened.mesh;
+  CoarsenedSurface left = Coarsened(surface, ids, target_faces, nullptr, poll);
   CoarseSurface coarse;
   coarse.mesh = std::make_unique<SurfaceMesh>();
   SurfaceMesh& mesh = *coarse.mesh;
   const int fan_count = static_cast<int>(surface.positions.size());
-  std::vector<int> new_vertex(fan_count, -1), new_face(ids.size(), -1);
+  std::vector<int> new_vertex(fan_count, -1);
   std::vector<int> order;
+  for (int v : left.vertex) new_vertex[v] = 0;
   for (int v = 0; v < fan_count; ++v)
-    if (left.VertexLives(v)) order.push_back(v);
+    if (new_vertex[v] == 0) order.push_back(v);
   std::stable_sort(order.begin(), order.end(),
                    [&](int a, int b) { return surface.source_vertex[a] < surface.source_vertex[b]; });
   vcg::tri::Allocator<SurfaceMesh>::AddVertices(mesh, order.size());
@@ -29,22 +29,16 @@ CoarseSurface CoarsenFanned(const FannedSurface& surface, const ChartIds& ids, i
     const Eigen::Vector3d& p = surface.positions[v];
     mesh.vert[n].P() = vcg::Point3d(p[0], p[1], p[2]);
   }
-  for (int f = 0; f < static_cast<int>(ids.size()); ++f)
-    if (left.FaceLives(f)) {
-      new_face[f] = static_cast<int>(coarse.ids.size());
-      coarse.ids.push_back(ids[f]);
-      coarse.source_face.push_back(f);
-    }
-  coarse.heir = std::move(coarsened.heir);
-  for (int& f : coarse.heir) f = new_face[f];
+  for (int f : left.source_face) coarse.ids.push_back(ids[f]);
+  coarse.source_face = std::move(left.source_face);
+  coarse.heir = std::move(left.heir);
   vcg::tri::Allocator<SurfaceMesh>::AddFaces(mesh, coarse.ids.size());
   // The topology is known here. Found again from the vertices it might close slits.
-  for (int h = 0; h < 3 * static_cast<int>(ids.size()); ++h) {
-    if (new_face[h / 3] < 0) continue;
-    SurfaceFace& face = mesh.face[new_face[h / 3]];
-    const int i = h % 3, o = left.Opposite(h);
-    face.V(i) = &mesh.vert[new_vertex[left.Vertex(h)]];
-    face.FFp(i) = o < 0 ? &face : &mesh.face[new_face[o / 3]];
+  for (int h = 0; h < static_cast<int>(left.vertex.size()); ++h) {
+    SurfaceFace& face = mesh.face[h / 3];
+    const int i = h % 3, o = left.opposite[h];
+    face.V(i) = &mesh.vert[new_vertex[left.vertex[h]]];
+    face.FFp(i) = o < 0 ? &face : &mesh.face[o / 3];
     face.FFi(i) = static_cast<char>(o < 0 ? i : o % 3);
   }
   return coarse;

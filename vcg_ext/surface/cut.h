@@ -143,10 +143,12 @@ class ChartCutter {
       PatchExtractor<MeshType> extractor(surface_, seams);
       for (const auto& faces : FacesOfCharts(ids))
         if (!done[faces.front()]) charts.push_back({{}, 0, {}, extractor.Extract(faces), {}});
-      ParallelFor(static_cast<int>(charts.size()), progress_, [&](int k, const std::function<void()>& poll) {
-        charts[k] = CutStretchDarts(charts[k].patch, known.Find(charts[k].patch),
-                                    GoalOf(charts[k].patch, bound), poll);
-      });
+      ParallelForLargestFirst(
+          static_cast<int>(charts.size()), progress_, [&](int k) { return charts[k].patch.faces.size(); },
+          [&](int k, const std::function<void()>& poll) {
+            charts[k] = CutStretchDarts(charts[k].patch, known.Find(charts[k].patch),
+                                        GoalOf(charts[k].patch, bound), poll);
+          });
       int next_id = ChartCount(ids);
       for (DartedChart& chart : charts) {
         const std::vector<int>& faces = chart.patch.faces;

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -118,13 +117,9 @@ class Parameterizer {
         if (state_[faces.front()] != State::kDone) pieces.push_back({extractor.Extract(faces)});
       if (pieces.empty()) return;
 
-      std::vector<int> order(pieces.size());  // the largest first, for even threads
-      std::iota(order.begin(), order.end(), 0);
-      std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-        return pieces[a].patch.faces.size() > pieces[b].patch.faces.size();
-      });
-      ParallelFor(static_cast<int>(pieces.size()), progress_,
-                  [&](int k, const std::function<void()>& poll) { FlattenPiece(pieces[order[k]], poll); });
+      ParallelForLargestFirst(
+          static_cast<int>(pieces.size()), progress_, [&](int k) { return pieces[k].patch.faces.size(); },
+          [&](int k, const std::function<void()>& poll) { FlattenPiece(pieces[k], poll); });
       int next_id = ChartCount(ids);
       for (Piece& piece : pieces) Settle(piece, ids, seams, next_id);
       SplitAndCompact(surface_, ids, &seams);

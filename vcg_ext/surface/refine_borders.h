@@ -129,7 +129,8 @@ class BorderRefiner {
     PatchExtractor<MeshType> extractor(surface_, no_seams_);
     std::vector<ChartPatch> patches;
     for (int c : which) patches.push_back(extractor.Extract(faces[c]));
-    ParallelFor(static_cast<int>(which.size()), progress_, [&](int k, const std::function<void()>& poll) {
+    const auto size = [&](int k) { return patches[k].faces.size(); };
+    const auto flatten = [&](int k, const std::function<void()>& poll) {
       Chart& chart = state.charts[which[k]];
       // Without a number of charts to keep to, one above the bound needs the darts that it was tried with.
       const bool may_exceed = chart.patch.faces.empty() && params_.target_charts > 0;
@@ -150,7 +151,8 @@ class BorderRefiner {
       chart.cost = flat.energy * chart.patch.Area() / surface_.TotalArea() + SeamCost(cut_length);
       chart.stretch = flat.l2_stretch;
       chart.uv = std::move(flat.uv);
-    });
+    };
+    ParallelForLargestFirst(static_cast<int>(which.size()), progress_, size, flatten);
   }
 
   // As Merge may have done it.

@@ -25,9 +25,9 @@ void SplitBadCharts(const SurfaceGraph<MeshType>& surface, double bound, Progres
     for (const auto& faces : FacesOfCharts(ids))
       if (!good[faces.front()]) patches.push_back(extractor.Extract(faces));
     std::vector<char> bad(patches.size(), 0);
-    ParallelFor(static_cast<int>(patches.size()), progress, [&](int k, const std::function<void()>& poll) {
-      bad[k] = !TryChart(patches[k], bound, poll).flat;
-    });
+    ParallelForLargestFirst(
+        static_cast<int>(patches.size()), progress, [&](int k) { return patches[k].faces.size(); },
+        [&](int k, const std::function<void()>& poll) { bad[k] = !TryChart(patches[k], bound, poll).flat; });
     int next_id = ChartCount(ids);
     for (size_t k = 0; k < patches.size(); ++k) {
       const std::vector<int>& faces = patches[k].faces;

@@ -4,15 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "common/parallel.h"
 #include "common/pi.h"
 #include "planar/coarse_chart.h"
 #include "planar/distortion.h"
 #include "planar/lay_apart.h"
 #include "planar/map_from_coarser.h"
+#include "planar/normalized_chart.h"
 #include "planar/overlap.h"
 #include "planar/trial_flatten.h"
 #include "surface/carried_map.h"
@@ -72,17 +75,20 @@ std::vector<double> Smoothed(const ChartPatch& patch, std::vector<double> value)
 
 bool HasFinish(const DartGoal& goal) { return std::isfinite(goal.linf_stretch); }
 
-// As the atlas will have it.
-Flattening FlatWithFinish(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll) {
+// As the atlas will have it. `coarser`: see FlattenOptions.
+Flattening FlatWithFinish(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
+                          const CoarseChart* coarser = nullptr) {
   FlattenOptions options;
+  options.coarser = coarser;
   options.l2_bound = goal.l2_stretch;
   return Flatten(patch.mesh, options, poll);
 }
 
 // The quick way, without the finish; `start` may be null.
-Flattening FlatWithoutFinish(const ChartPatch& patch, const Points2* start,
-                             const std::function<void()>& poll) {
+Flattening FlatWithoutFinish(const ChartPatch& patch, const Points2* start, const std::function<void()>& poll,
+                             const CoarseChart* coarser = nullptr) {
   TrialOptions options;
+  options.coarser = coarser;
   options.start = start;
   TrialFlattening trial = TrialFlatten(patch.mesh, options, poll);
   Flattening flat;
@@ -94,8 +100,10 @@ Flattening FlatWithoutFinish(const ChartPatch& patch, const Points2* start,
   return flat;
 }
 
-Flattening FlatAsAsked(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll) {
-  return HasFinish(goal) ? FlatWithFinish(patch, goal, poll) : FlatWithoutFinish(patch, nullptr, poll);
+Flattening FlatAsAsked(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
+                       const CoarseChart* coarser = nullptr) {
+  return HasFinish(goal) ? FlatWithFinish(patch, goal, poll, coarser)
+                         : FlatWithoutFinish(patch, nullptr, poll, coarser);
 }
 
 bool Reached(const Flattening& flat, const DartGoal& goal) {
@@ -181,11 +189,7 @@ bool CutConePoints(const DartGoal& goal, const std::function<void()>& poll, Dart
 class DartSearch {
  public:
   DartSearch(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart)
-      : goal_(goal),
-        poll_(poll),
-        chart_(chart),
-        useless_(chart.patch.HalfEdgeCount(), 0),
-        hopeless_(chart.patch.faces.size(), 0) {}
+      : goal_(goal), poll_(poll), chart_(chart), hopeless_(chart.patch.faces.size(), 0) {}
 
   void Run() {
     // Trials with the finish take several times as long.
@@ -195,11 +199,22 @@ class DartSearch {
       PatchPaths paths(chart_.patch);
       paths.Run(paths.BoundaryVertices(), true);
       const std::vector<double> stretch = VertexStretch(chart_.patch, chart_.flat.uv);
-      const int worst = Best(paths, [&](int v) { return stretch[v]; });
+      const int worst = Worst(paths, stretch);
       if (worst < 0) return;
-      if (CutBest(paths, stretch, worst)) continue;
+      std::vector<int> tips = Tips(paths, stretch, worst);
+      const std::vector<char> hopeless = WithAround(worst, paths);
+      // Most darts don't help: a thread without work tries where the next one goes then.
+      if (failures + 1 < most_failures && FreeThreads() >= static_cast<int>(tips.size())) {
+        std::vector<char> now = hopeless;
+        hopeless_.swap(now);
+        const int next = Worst(paths, stretch);
+        if (next >= 0) TryAll(paths, Joined(tips, Tips(paths, stretch, next)));
+        hopeless_.swap(now);
+      }
+      TryAll(paths, tips);
+      if (CutBest(paths, tips)) continue;
       ++failures;
-      GiveUpAround(worst, paths.Distance(chart_.patch.Vertex(worst)));
+      hopeless_ = hopeless;
     }
   }
 
@@ -216,30 +231,55 @@ class DartSearch {
     return best;
   }
 
-  // Cuts the best dart to the worst corner or the innermost one, if any helps. `stretch`: per vertex.
-  bool CutBest(const PatchPaths& paths, const std::vector<double>& stretch, int worst) {
-    std::vector<int> tips{worst};
+  int Worst(const PatchPaths& paths, const std::vector<double>& stretch) const {
+    return Best(paths, [&](int v) { return stretch[v]; });
+  }
+
+  // Where darts may go instead of the worst corner, too.
+  std::vector<int> Tips(const PatchPaths& paths, const std::vector<double>& stretch, int worst) const {
     // A dart relieves a disk as wide as it is long, so the mean stretch around its tip counts for more than
     // that at it. A round chart is stretched most at its rim, and yet a cut to its middle may relieve it
     // more.
-    if (chart_.flat.l2_stretch > goal_.l2_stretch) {
-      const std::vector<double> around = Smoothed(chart_.patch, stretch);
-      for (const int tip : {Best(paths, [&](int v) { return around[v]; }),
-                            Best(paths, [&](int v) { return paths.Distance(v); })})
-        if (std::find(tips.begin(), tips.end(), tip) == tips.end()) tips.push_back(tip);
+    if (chart_.flat.l2_stretch <= goal_.l2_stretch) return {worst};
+    const std::vector<double> around = Smoothed(chart_.patch, stretch);
+    return Joined({worst}, {Best(paths, [&](int v) { return around[v]; }),
+                            Best(paths, [&](int v) { return paths.Distance(v); })});
+  }
+
+  // Each once.
+  static std::vector<int> Joined(std::vector<int> some, const std::vector<int>& others) {
+    for (int tip : others)
+      if (std::find(some.begin(), some.end(), tip) == some.end()) some.push_back(tip);
+    return some;
+  }
+
+  // Makes the trials that have not been made.
+  void TryAll(const PatchPaths& paths, std::vector<int> tips) {
+    tips.erase(std::remove_if(tips.begin(), tips.end(), [&](int tip) { return trials_.count(tip) > 0; }),
+               tips.end());
+    if (tips.empty()) return;
+    // Most darts don't help, which shows in a map without the finish, made from the one the chart has.
+    if (!plain_) {
+      plain_ = HasFinish(goal_) ? FlatWithoutFinish(chart_.patch, &chart_.flat.uv, poll_) : chart_.flat;
     }
+    std::vector<DartedChart> made(tips.size());
+    InParallel(static_cast<int>(tips.size()), poll_, [&](int k, const std::function<void()>& poll) {
+      const int v = chart_.patch.Vertex(tips[k]);
+      if (!Try(tips[k], paths.Path(v), paths.Distance(v), poll, made[k])) made[k] = {};
+    });
+    for (size_t k = 0; k < tips.size(); ++k) trials_.emplace(tips[k], std::move(made[k]));
+  }
+
+  // Cuts the best dart to one of the tips, which have been tried, if any helps.
+  bool CutBest(const PatchPaths& paths, const std::vector<int>& tips) {
     double best_gain = -1;
     DartedChart best;
     for (int tip : tips) {
-      const double length = paths.Distance(chart_.patch.Vertex(tip));
-      DartedChart trial;
-      if (useless_[tip] || !Try(tip, paths.Path(chart_.patch.Vertex(tip)), length, trial)) {
-        useless_[tip] = 1;
-        continue;
-      }
+      DartedChart& trial = trials_.at(tip);
+      if (trial.count == 0) continue;
       // By the length alone, many small ones would come before the one that does the work.
-      const double gain =
-          (chart_.flat.l2_stretch - std::max(trial.flat.l2_stretch, goal_.l2_stretch)) / std::sqrt(length);
+      const double gain = (chart_.flat.l2_stretch - std::max(trial.flat.l2_stretch, goal_.l2_stretch)) /
+                          std::sqrt(paths.Distance(chart_.patch.Vertex(tip)));
       if (best.count > 0 && gain <= best_gain) continue;
       best_gain = gain;
       best = std::move(trial);
@@ -250,22 +290,19 @@ class DartSearch {
     best.count += chart_.count;
     chart_ = std::move(best);
     plain_.reset();
-    std::fill(useless_.begin(), useless_.end(), 0);
+    trials_.clear();
     return true;
   }
 
   // One more dart; false when it doesn't help.
-  bool Try(int tip, const std::vector<int>& cut, double length, DartedChart& trial) {
+  bool Try(int tip, const std::vector<int>& cut, double length, const std::function<void()>& poll,
+           DartedChart& trial) const {
     trial = Uncut(CutOpen(chart_.patch, cut));
     trial.edges = cut;
     trial.count = 1;
     trial.tips.push_back(tip);
-    // Most darts don't help, which shows in a map without the finish, made from the one the chart has.
-    if (!plain_) {
-      plain_ = HasFinish(goal_) ? FlatWithoutFinish(chart_.patch, &chart_.flat.uv, poll_) : chart_.flat;
-    }
     const Points2 start = CarriedMap(chart_.patch, plain_->ok ? plain_->uv : chart_.flat.uv, trial.patch);
-    trial.flat = FlatWithoutFinish(trial.patch, &start, poll_);
+    trial.flat = FlatWithoutFinish(trial.patch, &start, poll);
     DartGoal goal = goal_;
     if (chart_.flat.l2_stretch <= goal.l2_stretch)  // though not quite by the quick map
       goal.l2_stretch = std::max(goal.l2_stretch, plain_->l2_stretch);
@@ -277,24 +314,27 @@ class DartSearch {
       if (overlaps == 0) return true;
       if (overlaps == kLittle) return false;
     }
-    trial.flat = FlatWithFinish(trial.patch, goal_, poll_);
+    trial.flat = FlatWithFinish(trial.patch, goal_, poll);
     return Helps(chart_.flat, trial.flat, length, goal_) && !Overlaps(trial);
   }
 
-  // No darts to anywhere near, as one to this corner was of no use.
-  void GiveUpAround(int corner, double distance) {
+  // The faces without hope once a dart to this corner is of no use: no darts to anywhere near.
+  std::vector<char> WithAround(int corner, const PatchPaths& paths) const {
+    const double distance = paths.Distance(chart_.patch.Vertex(corner));
+    std::vector<char> hopeless = hopeless_;
     PatchPaths around(chart_.patch);
     around.Run({chart_.patch.Vertex(corner)}, false);
     for (int h = 0; h < chart_.patch.HalfEdgeCount(); ++h)
-      if (around.Distance(chart_.patch.Vertex(h)) <= distance) hopeless_[h / 3] = 1;
+      if (around.Distance(chart_.patch.Vertex(h)) <= distance) hopeless[h / 3] = 1;
+    return hopeless;
   }
 
   const DartGoal& goal_;
   const std::function<void()>& poll_;
   DartedChart& chart_;
-  std::optional<Flattening> plain_;  // of the chart as it is now, without the finish
-  std::vector<char> useless_;        // corners to which a dart into the chart as it is now doesn't help
-  std::vector<char> hopeless_;       // faces
+  std::optional<Flattening> plain_;    // of the chart as it is now, without the finish
+  std::map<int, DartedChart> trials_;  // of the chart as it is now, by tip; without darts where none helps
+  std::vector<char> hopeless_;         // faces
 };
 
 // Of a chart that laps over itself a little.
@@ -329,10 +369,18 @@ DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const s
   constexpr int kEnoughFaces = 8000;
   constexpr double kHopeless = 1.2;  // of the goal's L2 - 1
   DartedChart chart = Uncut(patch);
-  const CoarseChart coarse(patch.mesh, kEnoughFaces, poll);
+  // Half of the way to the coarser chart is that which flattening the chart without darts goes.
+  const NormalizedChart normalized = Normalized(patch.mesh);
+  const CoarseChart coarser = CoarserChart(normalized.mesh, poll);
+  const CoarseChart coarse(coarser.Mesh(), kEnoughFaces, poll);
   if (!IsLargeChart(coarse.Mesh())) {
-    const DartedChart darted =
-        CutStretchDarts({coarse.SourceFaces(), coarse.Mesh(), coarse.Opposite()}, nullptr, goal, poll);
+    ChartPatch small{coarse.SourceFaces(), coarse.Mesh(), coarse.Opposite()};
+    for (int& f : small.faces) f = coarser.SourceFaces()[f];
+    std::vector<int> source = coarse.SourceVertices();
+    for (int& v : source) v = coarser.SourceVertices()[v];
+    for (int v = 0; v < small.VertexCount(); ++v)
+      small.mesh.positions.row(v) = patch.mesh.positions.row(source[v]);
+    const DartedChart darted = CutStretchDarts(small, nullptr, goal, poll);
     if (goal.may_give_up && !(darted.flat.l2_stretch - 1 <= kHopeless * (goal.l2_stretch - 1))) {
       chart.flat.why = "A coarser chart is stretched too much.";
       return chart;
@@ -340,20 +388,19 @@ DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const s
     std::vector<int> corner_at(patch.VertexCount());  // that starts at a vertex
     for (int h = 0; h < patch.HalfEdgeCount(); ++h) corner_at[patch.Vertex(h)] = h;
     for (int tip : darted.tips) {
-      const int vertex = coarse.SourceVertices()[coarse.Mesh().triangles(tip / 3, tip % 3)];
       PatchPaths paths(chart.patch);
       paths.Run(paths.BoundaryVertices(), true);
-      chart.tips.push_back(corner_at[vertex]);
+      chart.tips.push_back(corner_at[source[coarse.Mesh().triangles(tip / 3, tip % 3)]]);
       const std::vector<int> cut = paths.Path(chart.patch.Vertex(chart.tips.back()));
       chart.edges.insert(chart.edges.end(), cut.begin(), cut.end());
       chart.count += !cut.empty();
       chart.patch = CutOpen(chart.patch, cut);
     }
   }
-  chart.flat = FlatAsAsked(chart.patch, goal, poll);
+  chart.flat = FlatAsAsked(chart.patch, goal, poll, chart.count == 0 ? &coarser : nullptr);
   if (chart.count == 0 || (chart.flat.ok && !Overlaps(chart))) return chart;
   chart = Uncut(patch);
-  chart.flat = FlatAsAsked(patch, goal, poll);
+  chart.flat = FlatAsAsked(patch, goal, poll, &coarser);
   return chart;
 }
 
