@@ -367,19 +367,24 @@ bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, 
 // is here. A chart without them when they don't serve here.
 DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll) {
   constexpr int kEnoughFaces = 8000;
+  constexpr size_t kVeryManyFaces = 120000;
   constexpr double kHopeless = 1.2;  // of the goal's L2 - 1
   DartedChart chart = Uncut(patch);
-  // Half of the way to the coarser chart is that which flattening the chart without darts goes.
+  // Of a very large chart, half of the way to the coarser one is that which flattening it without darts goes.
   const NormalizedChart normalized = Normalized(patch.mesh);
-  const CoarseChart coarser = CoarserChart(normalized.mesh, poll);
-  const CoarseChart coarse(coarser.Mesh(), kEnoughFaces, poll);
+  std::optional<CoarseChart> between;
+  if (patch.faces.size() > kVeryManyFaces) between.emplace(CoarserChart(normalized.mesh, poll));
+  const CoarseChart* const coarser = between ? &*between : nullptr;
+  const CoarseChart coarse(coarser ? coarser->Mesh() : patch.mesh, kEnoughFaces, poll);
   if (!IsLargeChart(coarse.Mesh())) {
     ChartPatch small{coarse.SourceFaces(), coarse.Mesh(), coarse.Opposite()};
-    for (int& f : small.faces) f = coarser.SourceFaces()[f];
     std::vector<int> source = coarse.SourceVertices();
-    for (int& v : source) v = coarser.SourceVertices()[v];
-    for (int v = 0; v < small.VertexCount(); ++v)
-      small.mesh.positions.row(v) = patch.mesh.positions.row(source[v]);
+    if (coarser) {
+      for (int& f : small.faces) f = coarser->SourceFaces()[f];
+      for (int& v : source) v = coarser->SourceVertices()[v];
+      for (int v = 0; v < small.VertexCount(); ++v)
+        small.mesh.positions.row(v) = patch.mesh.positions.row(source[v]);
+    }
     const DartedChart darted = CutStretchDarts(small, nullptr, goal, poll);
     if (goal.may_give_up && !(darted.flat.l2_stretch - 1 <= kHopeless * (goal.l2_stretch - 1))) {
       chart.flat.why = "A coarser chart is stretched too much.";
@@ -397,10 +402,10 @@ DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const s
       chart.patch = CutOpen(chart.patch, cut);
     }
   }
-  chart.flat = FlatAsAsked(chart.patch, goal, poll, chart.count == 0 ? &coarser : nullptr);
+  chart.flat = FlatAsAsked(chart.patch, goal, poll, chart.count == 0 ? coarser : nullptr);
   if (chart.count == 0 || (chart.flat.ok && !Overlaps(chart))) return chart;
   chart = Uncut(patch);
-  chart.flat = FlatAsAsked(patch, goal, poll, &coarser);
+  chart.flat = FlatAsAsked(patch, goal, poll, coarser);
   return chart;
 }
 
