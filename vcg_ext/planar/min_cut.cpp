@@ -4,7 +4,6 @@
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>
 #include <boost/graph/compressed_sparse_row_graph.hpp>
 
-#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -34,6 +33,7 @@ std::vector<bool> MinCut(const std::vector<double>& pull, const std::vector<Flow
     int partner;
   };
   std::vector<Arc> arcs;
+  arcs.reserve(2 * (edges.size() + pull.size()));
   auto add = [&](int a, int b, double forward, double backward) {
     const int k = static_cast<int>(arcs.size());
     arcs.push_back({a, b, forward, k + 1});
@@ -45,9 +45,10 @@ std::vector<bool> MinCut(const std::vector<double>& pull, const std::vector<Flow
     if (pull[n] < 0) add(n, sink, -pull[n], 0);
   }
   const int arc_count = static_cast<int>(arcs.size());
-  std::vector<int> order(arc_count), place(arc_count);
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int x, int y) { return arcs[x].from < arcs[y].from; });
+  std::vector<int> order(arc_count), place(arc_count), next(node_count + 3, 0);
+  for (const Arc& arc : arcs) ++next[arc.from + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  for (int k = 0; k < arc_count; ++k) order[next[arcs[k].from]++] = k;
   std::vector<std::pair<int, int>> ends(arc_count);
   std::vector<double> capacity(arc_count), residual(arc_count);
   for (int k = 0; k < arc_count; ++k) {
