@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planar/extend_map.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -52,6 +53,7 @@ class Extension {
 
   std::vector<double> Run() {
     Unfold();
+    ListPlaced();
     constexpr int kRelaxations = 30;
     for (int i = 0; i < kRelaxations; ++i) Relax();
     std::vector<double> energy(flat_.size(), 0);
@@ -106,28 +108,49 @@ class Extension {
     }
   }
 
-  // Every triangle turned rigidly to fit its corners best; every free vertex to the mean of its triangles'.
-  void Relax() {
-    std::vector<Complex> sum(uv_.size());
-    std::vector<double> weight(uv_.size(), 0);
+  // A triangle with all corners placed, and where they are from its centre when it is laid flat.
+  struct Placed {
+    std::array<int, 3> vertex;
+    std::array<Complex, 3> from_centre;
+    double area;
+  };
+
+  void ListPlaced() {
     for (int t = 0; t < static_cast<int>(flat_.size()); ++t) {
       if (flat_[t].length == 0 || !IsPlaced(t)) continue;
-      const Complex rest = (corner_[t][0] + corner_[t][1] + corner_[t][2]) / 3.0,
-                    image = (At(t, 0) + At(t, 1) + At(t, 2)) / 3.0;
+      const std::array<Complex, 3>& corner = corner_[t];
+      const Complex centre = (corner[0] + corner[1] + corner[2]) / 3.0;
+      Placed triangle{{}, {}, flat_[t].length * flat_[t].third.imag()};
+      for (int i = 0; i < 3; ++i) {
+        triangle.vertex[i] = mesh_.triangles(t, i);
+        triangle.from_centre[i] = corner[i] - centre;
+      }
+      placed_triangles_.push_back(triangle);
+    }
+    sum_.resize(uv_.size());
+    weight_.resize(uv_.size());
+  }
+
+  // Every triangle turned rigidly to fit its corners best; every free vertex to the mean of its triangles'.
+  void Relax() {
+    std::fill(sum_.begin(), sum_.end(), Complex(0));
+    std::fill(weight_.begin(), weight_.end(), 0);
+    for (const Placed& triangle : placed_triangles_) {
+      Complex at[3];
+      for (int i = 0; i < 3; ++i) at[i] = uv_[triangle.vertex[i]];
+      const Complex image = (at[0] + at[1] + at[2]) / 3.0;
       Complex turn = 0;
-      for (int i = 0; i < 3; ++i) turn += std::conj(corner_[t][i] - rest) * (At(t, i) - image);
+      for (int i = 0; i < 3; ++i) turn += ConjMul(triangle.from_centre[i], at[i] - image);
       const double size = std::abs(turn);
       if (!(size > 0)) continue;
       turn /= size;
-      const double area = flat_[t].length * flat_[t].third.imag();
       for (int i = 0; i < 3; ++i) {
-        const int v = mesh_.triangles(t, i);
-        sum[v] += area * (image + turn * (corner_[t][i] - rest));
-        weight[v] += area;
+        sum_[triangle.vertex[i]] += triangle.area * (image + Mul(turn, triangle.from_centre[i]));
+        weight_[triangle.vertex[i]] += triangle.area;
       }
     }
     for (size_t v = 0; v < uv_.size(); ++v)
-      if (!fixed_[v] && weight[v] > 0) uv_[v] = sum[v] / weight[v];
+      if (!fixed_[v] && weight_[v] > 0) uv_[v] = sum_[v] / weight_[v];
   }
 
   const ChartMesh& mesh_;
@@ -136,6 +159,9 @@ class Extension {
   PlanePoints& uv_;
   std::vector<FlatTriangle> flat_;
   std::vector<std::array<Complex, 3>> corner_;
+  std::vector<Placed> placed_triangles_;
+  std::vector<Complex> sum_;  // of Relax, per vertex
+  std::vector<double> weight_;
 };
 
 }  // namespace

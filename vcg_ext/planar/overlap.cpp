@@ -34,6 +34,7 @@ bool Separates(const GridTriangle& a, const GridTriangle& b) {
 
 struct Box {
   std::int32_t low[2], high[2];
+  std::int32_t low_cell[2] = {0, 0}, high_cell[2] = {0, 0};  // of the grid: those with `low` and `high`
 };
 
 Box BoxOf(const GridTriangle& t) {
@@ -61,6 +62,7 @@ std::vector<std::pair<int, int>> OverlappingPairs(const std::vector<GridTriangle
   const int count = static_cast<int>(triangles.size());
   if (count < 2) return pairs;
   std::vector<Box> boxes;
+  boxes.reserve(triangles.size());
   std::int64_t low[2] = {INT32_MAX, INT32_MAX}, high[2] = {INT32_MIN, INT32_MIN};
   double mean_size[2] = {0, 0};
   for (const GridTriangle& t : triangles) {
@@ -79,11 +81,15 @@ std::vector<std::pair<int, int>> OverlappingPairs(const std::vector<GridTriangle
     cells[d] = static_cast<std::int64_t>(std::clamp(extent / std::max(1.0, mean_size[d]), 1.0, most));
     cell_size[d] = static_cast<std::int64_t>(std::ceil(extent / static_cast<double>(cells[d])));
   }
-  auto cell_of = [&](std::int32_t x, int d) { return (x - low[d]) / cell_size[d]; };
+  for (Box& box : boxes)
+    for (int d : {0, 1}) {
+      box.low_cell[d] = static_cast<std::int32_t>((box.low[d] - low[d]) / cell_size[d]);
+      box.high_cell[d] = static_cast<std::int32_t>((box.high[d] - low[d]) / cell_size[d]);
+    }
   auto for_cells = [&](int t, auto&& visit) {
     const Box& b = boxes[t];
-    for (std::int64_t y = cell_of(b.low[1], 1); y <= cell_of(b.high[1], 1); ++y)
-      for (std::int64_t x = cell_of(b.low[0], 0); x <= cell_of(b.high[0], 0); ++x)
+    for (std::int64_t y = b.low_cell[1]; y <= b.high_cell[1]; ++y)
+      for (std::int64_t x = b.low_cell[0]; x <= b.high_cell[0]; ++x)
         visit(static_cast<size_t>(y * cells[0] + x));
   };
   std::vector<int> start(cells[0] * cells[1] + 1, 0);
@@ -103,8 +109,8 @@ std::vector<std::pair<int, int>> OverlappingPairs(const std::vector<GridTriangle
         if (a.low[0] >= b.high[0] || b.low[0] >= a.high[0] || a.low[1] >= b.high[1] || b.low[1] >= a.high[1])
           continue;
         // A pair that shares several cells is taken in the one with the corner of the boxes' intersection.
-        const size_t home = static_cast<size_t>(cell_of(std::max(a.low[1], b.low[1]), 1) * cells[0] +
-                                                cell_of(std::max(a.low[0], b.low[0]), 0));
+        const size_t home = static_cast<size_t>(std::max(a.low_cell[1], b.low_cell[1]) * cells[0] +
+                                                std::max(a.low_cell[0], b.low_cell[0]));
         if (home != cell || !Overlap(triangles[i], triangles[j])) continue;
         pairs.push_back({i, j});
         if (pairs.size() >= limit) {
