@@ -282,9 +282,9 @@ TEST(Coarsen, IsDeterministicAndHardlyMindsRotation) {
 
 // Large enough to be coarsened in blocks.
 TEST(Coarsen, ALargeSurfaceComesOutTheSameOnAnyNumberOfThreads) {
-  const TestSurface surface(shapes::Grid(200, 200));
-  ASSERT_GT(surface->FaceCount(), 70000);
-  const ChartIds ids = Octants(surface);
+  const TestSurface surface(shapes::Sphere(145));
+  ASSERT_GT(surface->FaceCount(), 400000);
+  const ChartIds ids(surface->FaceCount(), 0);
   for (const int target : {surface->FaceCount() / 4, 2000}) {
     std::vector<CoarseSurface> results;
     for (int count : {1, 3}) {
