@@ -168,25 +168,23 @@ double AngleFlattening::Variance(Eigen::Index triangle, int corner) const {
 
 // What a change of the angle at `corner` does to the conditions of the vertex at corner k: to the sum of
 // angles (real part) and to the logarithm of the product of sines (imaginary part).
-Complex AngleFlattening::Row(const Corners& angle, int k, int corner) const {
+Complex AngleFlattening::Row(const Corners& cotangent, int k, int corner) {
   if (corner == k) return {1, 0};
-  const double cotangent = 1 / std::tan(angle[At(corner)]);
-  return {0, corner == (k + 1) % 3 ? cotangent : -cotangent};
+  return {0, corner == (k + 1) % 3 ? cotangent[At(corner)] : -cotangent[At(corner)]};
 }
 
 // The inverse of the Lagrangian's Hessian. The objective gives 1 / variance, a length condition its
 // multiplier over the squared sine.
-Corners AngleFlattening::Compliance(Eigen::Index triangle) const {
+Corners AngleFlattening::Compliance(Eigen::Index triangle, const Corners& sine) const {
   Corners compliance;
   for (int i = 0; i < 3; ++i) {
     const double variance = Variance(triangle, i);
-    const double sine = std::sin(angles_[At(triangle)][At(i)]);
     double pull = 0;
     for (const int k : {(i + 1) % 3, (i + 2) % 3}) {
       const std::size_t v = At(triangles_(triangle, k));
       if (!on_boundary_[v]) pull += (i == (k + 1) % 3 ? 1 : -1) * multiplier_[v].imag();
     }
-    const double curvature = 1 + variance / (sine * sine) * pull;
+    const double curvature = 1 + variance / (sine[At(i)] * sine[At(i)]) * pull;
     compliance[At(i)] = variance / std::max(curvature, kLeastCurvature);
   }
   return compliance;
@@ -198,11 +196,17 @@ bool AngleFlattening::Step(VertexBlockSystem& system) {
   for (std::size_t v = 0; v < vertex_count; ++v) {
     if (!on_boundary_[v]) residual[v] = {2 * kPi, 0};
   }
-  std::vector<Corners> compliances(angles_.size()), changes(angles_.size());
+  std::vector<Corners> compliances(angles_.size()), changes(angles_.size()), cotangents(angles_.size());
   system.SetZero();
   for (Eigen::Index t = 0; t < triangles_.rows(); ++t) {
     const Corners& angle = angles_[At(t)];
-    const Corners d = compliances[At(t)] = Compliance(t);
+    Corners sine, log_sine;
+    for (std::size_t i = 0; i < 3; ++i) {
+      sine[i] = std::sin(angle[i]);
+      log_sine[i] = std::log(sine[i]);
+      cotangents[At(t)][i] = 1 / std::tan(angle[i]);
+    }
+    const Corners d = compliances[At(t)] = Compliance(t, sine);
     const double rest = kPi - angle[0] - angle[1] - angle[2], sum = d[0] + d[1] + d[2];
     Corners toward;  // what the objective alone would do
     for (std::size_t i = 0; i < 3; ++i) {
@@ -214,14 +218,13 @@ bool AngleFlattening::Step(VertexBlockSystem& system) {
 
     std::array<Complex, 3> rows[3], projected[3];
     for (int k = 0; k < 3; ++k) {
-      for (int i = 0; i < 3; ++i) rows[k][At(i)] = Row(angle, k, i);
+      for (int i = 0; i < 3; ++i) rows[k][At(i)] = Row(cotangents[At(t)], k, i);
       projected[k] = Project(d, rows[k]);
     }
     for (int k = 0; k < 3; ++k) {
       const std::size_t v = At(triangles_(t, k));
       if (on_boundary_[v]) continue;
-      residual[v] -= Complex(angle[At(k)], std::log(std::sin(angle[At((k + 1) % 3)])) -
-                                               std::log(std::sin(angle[At((k + 2) % 3)])));
+      residual[v] -= Complex(angle[At(k)], log_sine[At((k + 1) % 3)] - log_sine[At((k + 2) % 3)]);
       for (std::size_t i = 0; i < 3; ++i) residual[v] -= rows[k][i] * toward[i];
       for (int l = k; l < 3; ++l) {
         if (on_boundary_[At(triangles_(t, l))]) continue;
@@ -253,7 +256,7 @@ bool AngleFlattening::Step(VertexBlockSystem& system) {
       pull[At(i)] = 0;
       for (int k = 0; k < 3; ++k) {
         const std::size_t v = At(triangles_(t, k));
-        if (!on_boundary_[v]) pull[At(i)] += Dot(Row(angles_[At(t)], k, i), multiplier[v]);
+        if (!on_boundary_[v]) pull[At(i)] += Dot(Row(cotangents[At(t)], k, i), multiplier[v]);
       }
     }
     pull = Project(compliances[At(t)], pull);

@@ -48,9 +48,9 @@ class AngleFlattening {
  private:
   using Corners = std::array<double, 3>;
 
-  Complex Row(const Corners& angle, int k, int corner) const;
+  static Complex Row(const Corners& cotangent, int k, int corner);
   double Variance(Eigen::Index triangle, int corner) const;
-  Corners Compliance(Eigen::Index triangle) const;
+  Corners Compliance(Eigen::Index triangle, const Corners& sine) const;
 
   void FillHoles(const std::vector<std::vector<int>>& loops);
 
