@@ -25,31 +25,33 @@ UpperPattern PatternOf(const Triangles& triangles, const std::vector<int>& place
   const std::size_t count = place.size(), edge_count = At(triangles.rows()) * 3;
   std::vector<int> low(edge_count), high(edge_count);
   std::vector<int> end_of_row(count + 1, 0), end_of_column(count + 1, 0);
-  for (std::size_t e = 0; e < edge_count; ++e) {
-    const Eigen::Index t = static_cast<Eigen::Index>(e / 3);
-    const int a = place[At(triangles(t, kEdgeCorners[e % 3][0]))],
-              b = place[At(triangles(t, kEdgeCorners[e % 3][1]))];
-    low[e] = std::min(a, b);
-    high[e] = std::max(a, b);
-    ++end_of_row[At(low[e]) + 1];
-    ++end_of_column[At(high[e]) + 1];
+  std::size_t e = 0;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const int at[3] = {place[At(triangles(t, 0))], place[At(triangles(t, 1))], place[At(triangles(t, 2))]};
+    for (const auto& edge : kEdgeCorners) {
+      low[e] = std::min(at[edge[0]], at[edge[1]]);
+      high[e] = std::max(at[edge[0]], at[edge[1]]);
+      ++end_of_row[At(low[e]) + 1];
+      ++end_of_column[At(high[e]) + 1];
+      ++e;
+    }
   }
   for (std::size_t i = 0; i < count; ++i) {
     end_of_row[i + 1] += end_of_row[i];
     end_of_column[i + 1] += end_of_column[i];
   }
   std::vector<int> by_row(edge_count);
-  for (std::size_t e = 0; e < edge_count; ++e) by_row[At(end_of_row[At(low[e])]++)] = static_cast<int>(e);
+  for (e = 0; e < edge_count; ++e) by_row[At(end_of_row[At(low[e])]++)] = static_cast<int>(e);
   // In this order, each column is filled from above; an edge of two triangles comes twice.
   const std::vector<int> begin(end_of_column.begin(), end_of_column.end() - 1);
   std::vector<int> filled(edge_count);
   UpperPattern pattern;
   pattern.of_edge.resize(edge_count);
-  for (const int e : by_row) {
-    const std::size_t column = At(high[At(e)]);
+  for (const int k : by_row) {
+    const std::size_t column = At(high[At(k)]);
     int& end = end_of_column[column];
-    if (end == begin[column] || filled[At(end) - 1] != low[At(e)]) filled[At(end++)] = low[At(e)];
-    pattern.of_edge[At(e)] = end - 1 - begin[column];
+    if (end == begin[column] || filled[At(end) - 1] != low[At(k)]) filled[At(end++)] = low[At(k)];
+    pattern.of_edge[At(k)] = end - 1 - begin[column];
   }
   pattern.start.assign(1, 0);
   pattern.start.reserve(count + 1);
@@ -59,7 +61,7 @@ UpperPattern PatternOf(const Triangles& triangles, const std::vector<int>& place
   for (std::size_t i = 0; i < count; ++i)
     std::copy(filled.begin() + begin[i], filled.begin() + end_of_column[i],
               pattern.row.begin() + pattern.start[i]);
-  for (std::size_t e = 0; e < edge_count; ++e) pattern.of_edge[e] += pattern.start[At(high[e])];
+  for (e = 0; e < edge_count; ++e) pattern.of_edge[e] += pattern.start[At(high[e])];
   return pattern;
 }
 
@@ -93,11 +95,12 @@ VertexBlockSystem::VertexBlockSystem(int vertex_count, const Triangles& triangle
   UpperPattern pattern = PatternOf(triangles, place_);
   matrix_.start = std::move(pattern.start);
   matrix_.row = std::move(pattern.row);
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    const Eigen::Index t = static_cast<Eigen::Index>(e / 3);
-    edges_[e] = {pattern.of_edge[e], place_[At(triangles(t, kEdgeCorners[e % 3][0]))] >
-                                         place_[At(triangles(t, kEdgeCorners[e % 3][1]))]};
-  }
+  std::size_t e = 0;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+    for (const auto& edge : kEdgeCorners) {
+      edges_[e] = {pattern.of_edge[e], place_[At(triangles(t, edge[0]))] > place_[At(triangles(t, edge[1]))]};
+      ++e;
+    }
   SetZero();
   solver_.Analyze(matrix_);
 }
