@@ -40,35 +40,45 @@ void BlockCholesky::Analyze(const BlockMatrix& matrix) {
   row_.resize(At(start_.back()));
   l_.resize(row_.size());
   inverse_d_.resize(At(size));
-}
-
-bool BlockCholesky::Factorize(const BlockMatrix& matrix) {
-  const int size = static_cast<int>(matrix.diagonal.size());
-  std::vector<int> end(start_.begin(), start_.end() - 1), seen(At(size), -1), path(At(size)), order(At(size));
-  std::vector<Eigen::Matrix2d> y(At(size), Eigen::Matrix2d::Zero());
+  // Which blocks of row k of L are there: children before parents.
+  columns_.clear();
+  columns_.reserve(row_.size());
+  row_start_.assign(1, 0);
+  std::vector<int> end(start_.begin(), start_.end() - 1), path(At(size)), order(At(size));
+  std::fill(seen.begin(), seen.end(), -1);
   for (int k = 0; k < size; ++k) {
-    // Which blocks of row k of L are there: children before parents.
     int first = size;
     seen[At(k)] = k;
     for (int p = matrix.start[At(k)]; p < matrix.start[At(k) + 1]; ++p) {
-      int length = 0, i = matrix.row[At(p)];
-      y[At(i)] = matrix.above[At(p)];
-      for (; seen[At(i)] != k; i = parent_[At(i)]) {
+      int length = 0;
+      for (int i = matrix.row[At(p)]; seen[At(i)] != k; i = parent_[At(i)]) {
         path[At(length++)] = i;
         seen[At(i)] = k;
       }
       while (length > 0) order[At(--first)] = path[At(--length)];
     }
+    columns_.insert(columns_.end(), order.begin() + first, order.end());
+    row_start_.push_back(static_cast<int>(columns_.size()));
+    for (; first < size; ++first) row_[At(end[At(order[At(first)])]++)] = k;
+  }
+}
+
+bool BlockCholesky::Factorize(const BlockMatrix& matrix) {
+  const int size = static_cast<int>(matrix.diagonal.size());
+  std::vector<int> end(start_.begin(), start_.end() - 1);
+  std::vector<Eigen::Matrix2d> y(At(size), Eigen::Matrix2d::Zero());
+  for (int k = 0; k < size; ++k) {
+    for (int p = matrix.start[At(k)]; p < matrix.start[At(k) + 1]; ++p)
+      y[At(matrix.row[At(p)])] = matrix.above[At(p)];
     Eigen::Matrix2d d = matrix.diagonal[At(k)];
-    for (; first < size; ++first) {
-      const int i = order[At(first)];
+    for (int c = row_start_[At(k)]; c < row_start_[At(k) + 1]; ++c) {
+      const int i = columns_[At(c)];
       const Eigen::Matrix2d x = y[At(i)];
       y[At(i)].setZero();
       const int stop = end[At(i)]++;
       for (int p = start_[At(i)]; p < stop; ++p) y[At(row_[At(p)])].noalias() -= l_[At(p)].lazyProduct(x);
       const Eigen::Matrix2d turned = inverse_d_[At(i)] * x;
       d.noalias() -= x.transpose().lazyProduct(turned);
-      row_[At(stop)] = k;
       l_[At(stop)] = turned.transpose();
     }
     if (!Invert(d, inverse_d_[At(k)])) return false;

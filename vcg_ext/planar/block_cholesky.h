@@ -31,6 +31,8 @@ class BlockCholesky {
   std::vector<int> parent_;         // elimination tree, -1 at roots
   std::vector<int> start_;          // of each column of L, and the end
   std::vector<int> row_;            // of each block of L below the diagonal
+  std::vector<int> row_start_;      // of each row of L in columns_, and the end
+  std::vector<int> columns_;        // of the blocks in a row, in the order they are found in
   std::vector<Eigen::Matrix2d> l_;  // those blocks
   std::vector<Eigen::Matrix2d> inverse_d_;
 };
