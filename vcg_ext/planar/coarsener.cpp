@@ -38,6 +38,7 @@ class Coarsener {
   }
 
   void Run(int target_faces) {
+    if (FaceCount() <= target_faces) return;
     constexpr int kManyFaces = 400000, kFacesPerBlock = 16384;
     // What lies beside the rim of a block stays finer; in the next blocks, or at last, that is made up for.
     constexpr int kAtOnce = 3;
@@ -161,8 +162,8 @@ class Coarsener {
     });
     if (count == 1)
       collapsers[0]->Run(goal, EdgeCollapser::kNever, poll_);
-    else
-      RunToOneCost(goal, collapsers);
+    else  // where the blocks have few vertices for themselves, these are not to make up for the others
+      RunToOneCost(FaceCount() - static_cast<int>(blocks.ShareOfInner() * (FaceCount() - goal)), collapsers);
     InParallel(count, poll_, [&](int b, const std::function<void()>&) {
       blocks.WriteBack(b, *collapsers[b], task_, heir_);
     });

@@ -43,6 +43,15 @@ SurfaceBlocks::SurfaceBlocks(const CollapseTask& surface, const std::vector<int>
   }
 }
 
+double SurfaceBlocks::ShareOfInner() const {
+  std::size_t inner = 0, all = 0;
+  for (int b = 0; b < count_; ++b) {
+    inner += inner_[b].size();
+    all += inner_[b].size() + rim_[b].size();
+  }
+  return all > 0 ? static_cast<double>(inner) / static_cast<double>(all) : 1;
+}
+
 CollapseTask SurfaceBlocks::Task(int block) const {
   CollapseTask task;
   const std::size_t vertex_count = inner_[block].size() + rim_[block].size();

@@ -15,6 +15,9 @@ class SurfaceBlocks {
   /// `faces`: those of the surface that are there, ascending. Both must outlive the blocks.
   SurfaceBlocks(const CollapseTask& surface, const std::vector<int>& faces, int count);
 
+  /// Of all vertices, those that are in one block alone; others don't go.
+  double ShareOfInner() const;
+
   /// A block as a surface of its own.
   CollapseTask Task(int block) const;
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/parallel.h"
+#include "common/threads.h"
 #include "planar/lay_apart.h"
 #include "planar/overlap.h"
 #include "planar/trial_flatten.h"
@@ -276,7 +277,8 @@ class CheckedMerger {
   void TryNextWithDarts(const std::vector<std::tuple<double, int, int>>& pairs, size_t first, Effort effort,
                         std::map<std::pair<int, int>, Darted>& darted) {
     std::vector<std::pair<int, int>> next;
-    const size_t most = static_cast<size_t>(1 + FreeThreads());
+    constexpr int kMostAtOnce = 8;  // each has its own copy of a fine chart
+    const size_t most = static_cast<size_t>(1 + std::min(FreeThreads(), kMostAtOnce));
     for (size_t k = first; k < pairs.size() && next.size() < most; ++k) {
       const std::pair<int, int> pair{std::get<1>(pairs[k]), std::get<2>(pairs[k])};
       if (darted.count(pair) == 0) next.push_back(pair);

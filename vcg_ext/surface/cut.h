@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,29 +54,32 @@ class ChartCutter {
   int LowerMeanStretch(const ChartIds& ids, SeamMask& seams, KnownFlattenings& known) {
     if (params_.dart_by != DartMethod::kMeasuredStretch || !MayPart()) return 0;
     const double halfway = 1 + (params_.StretchBound() - 1) / 2;
-    std::vector<DartedChart> charts;
+    std::vector<std::pair<double, std::vector<int>>> charts;  // L2 stretch, faces
     double excess = 0;  // of the mean stretch over `halfway`, times the area
     PatchExtractor<MeshType> extractor(surface_, seams);
-    for (const auto& faces : FacesOfCharts(ids)) {
-      ChartPatch patch = extractor.Extract(faces);
+    for (std::vector<int>& faces : FacesOfCharts(ids)) {
+      const ChartPatch patch = extractor.Extract(faces);
       const Flattening* flat = known.Find(patch);
       if (!flat) return 0;  // it could not be laid flat
       excess += patch.Area() * (flat->l2_stretch - halfway);
-      charts.emplace_back().flat = *flat;
-      charts.back().patch = std::move(patch);
+      if (flat->l2_stretch > halfway) charts.push_back({flat->l2_stretch, std::move(faces)});
     }
-    std::stable_sort(charts.begin(), charts.end(), [](const DartedChart& a, const DartedChart& b) {
-      return a.flat.l2_stretch > b.flat.l2_stretch;
-    });
-    int count = 0;
-    for (const DartedChart& chart : charts) {
-      const double before = chart.flat.l2_stretch;
-      if (!(excess > 0) || before <= halfway) break;
-      DartGoal goal = GoalOf(chart.patch, halfway);
+    std::stable_sort(charts.begin(), charts.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    constexpr int kMostFailures = 12;
+    int count = 0, failures = 0;
+    for (size_t k = 0; k < charts.size() && excess > 0 && failures < kMostFailures; ++k) {
+      const auto& [before, faces] = charts[k];
+      const ChartPatch patch = extractor.Extract(faces);
+      DartGoal goal = GoalOf(patch, halfway);
+      goal.l2_bound = params_.StretchBound();
       goal.may_give_up = false;
-      DartedChart darted = CutStretchDarts(chart.patch, &chart.flat, goal, [this] { progress_.Poll(); });
-      if (!darted.flat.ok || darted.count == 0 || darted.flat.l2_stretch >= before) continue;
-      excess += chart.patch.Area() * (darted.flat.l2_stretch - before);
+      DartedChart darted = CutStretchDarts(patch, known.Find(patch), goal, [this] { progress_.Poll(); });
+      if (!darted.flat.ok || darted.count == 0 || darted.flat.l2_stretch >= before) {
+        ++failures;
+        continue;
+      }
+      excess += patch.Area() * (darted.flat.l2_stretch - before);
       count += darted.count;
       Mark(darted.patch, darted.edges, seams);
       known.Add(darted.patch, std::move(darted.flat));

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/parallel.h"
+#include "common/threads.h"
 #include "surface/chart_groups.h"
 
 namespace dcharts {
@@ -186,8 +188,9 @@ class GreedyMerger {
   void TryAhead(const Item& first) {
     constexpr size_t kLookedAt = 12;
     const size_t free = static_cast<size_t>(FreeThreads());
+    if (free == 0) return;
     std::vector<AheadTrial> trials{TrialFor(first)};
-    if (free == 0 || !trials.front().is_needed || trials.front().is_made) return;
+    if (!trials.front().is_needed || trials.front().is_made) return;
     std::set<int> charts{std::get<2>(first), std::get<3>(first)};
     std::vector<Item> seen;
     while (trials.size() <= free && seen.size() < kLookedAt && !queue_.empty()) {

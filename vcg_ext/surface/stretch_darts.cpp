@@ -11,6 +11,7 @@
 
 #include "common/parallel.h"
 #include "common/pi.h"
+#include "common/threads.h"
 #include "planar/coarse_chart.h"
 #include "planar/distortion.h"
 #include "planar/lay_apart.h"
@@ -80,7 +81,7 @@ Flattening FlatWithFinish(const ChartPatch& patch, const DartGoal& goal, const s
                           const CoarseChart* coarser = nullptr) {
   FlattenOptions options;
   options.coarser = coarser;
-  options.l2_bound = goal.l2_stretch;
+  options.l2_bound = std::max(goal.l2_stretch, goal.l2_bound);
   return Flatten(patch.mesh, options, poll);
 }
 
@@ -365,7 +366,8 @@ bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, 
 
 // A large chart gets the darts that a coarser one gets: each to the same vertex, along the shortest way there
 // is here. A chart without them when they don't serve here.
-DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll) {
+DartedChart CutLargeChart(const ChartPatch& patch, const Flattening* known, const DartGoal& goal,
+                          const std::function<void()>& poll) {
   constexpr int kEnoughFaces = 8000;
   constexpr size_t kVeryManyFaces = 120000;
   constexpr double kHopeless = 1.2;  // of the goal's L2 - 1
@@ -402,10 +404,13 @@ DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const s
       chart.patch = CutOpen(chart.patch, cut);
     }
   }
-  chart.flat = FlatAsAsked(chart.patch, goal, poll, chart.count == 0 ? coarser : nullptr);
+  if (known && chart.count == 0)
+    chart.flat = *known;
+  else
+    chart.flat = FlatAsAsked(chart.patch, goal, poll, chart.count == 0 ? coarser : nullptr);
   if (chart.count == 0 || (chart.flat.ok && !Overlaps(chart))) return chart;
   chart = Uncut(patch);
-  chart.flat = FlatAsAsked(patch, goal, poll, coarser);
+  chart.flat = known ? *known : FlatAsAsked(patch, goal, poll, coarser);
   return chart;
 }
 
@@ -413,7 +418,7 @@ DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const s
 
 DartedChart CutStretchDarts(const ChartPatch& patch, const Flattening* known, const DartGoal& goal,
                             const std::function<void()>& poll) {
-  if (IsLargeChart(patch.mesh)) return CutLargeChart(patch, goal, poll);
+  if (IsLargeChart(patch.mesh)) return CutLargeChart(patch, known, goal, poll);
   DartedChart chart = Uncut(patch);
   chart.flat = known ? *known : FlatAsAsked(patch, goal, poll);
   if (!chart.flat.ok || CutConePoints(goal, poll, chart)) return chart;

@@ -13,7 +13,9 @@ namespace dcharts {
 struct DartGoal {
   double l2_stretch = 1;    ///< of the chart at its own scale
   double linf_stretch = 1;  ///< the same
-  double longest = 0;       ///< bound on a dart's length, model units
+  double l2_bound =
+      1;               ///< what lowering the worst stretch may raise the L2 stretch to, if above `l2_stretch`
+  double longest = 0;  ///< bound on a dart's length, model units
   int most_darts = 12;
   /// A large chart that a coarser one shows to stay above `l2_stretch` may be left unflattened.
   bool may_give_up = false;
