@@ -10,6 +10,7 @@
 
 #include "common/half_edge.h"
 #include "common/parallel.h"
+#include "planar/quadric.h"
 #include "planar/surface_blocks.h"
 
 namespace dcharts {

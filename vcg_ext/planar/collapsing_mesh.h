@@ -6,7 +6,7 @@
 namespace dcharts {
 
 /// The triangles of a surface while edges are collapsed. Half-edge h = 3 f + i is edge (i, i+1) of face f.
-/// Every vertex must be one fan of faces, see OpenAtSeams.
+/// Every vertex that is moved, or moved onto, must be one fan of faces, see OpenAtSeams.
 class CollapsingMesh {
  public:
   /// An edge at a vertex: the vertex it leads to, and one of its half-edges, in either direction.

@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
+#include <utility>
 
 #include "common/half_edge.h"
 

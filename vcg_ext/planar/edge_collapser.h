@@ -18,9 +18,9 @@ namespace dcharts {
 
 /// What a vertex may do while edges are collapsed.
 enum VertexFreedom : char {
-  kMayMove,
+  kMayMove = 0,
   kStays,  ///< others may be moved onto it
-  kApart   ///< stays, and no other is moved onto it: some of its faces aren't there
+  kApart  ///< stays, and no other is moved onto it: some of its faces aren't there, so it may be several fans
 };
 
 /// A surface with charts, of which edges are to be collapsed. What collapses cost is told by the quadrics.
@@ -59,9 +59,8 @@ class EdgeCollapser {
   const CollapsingMesh& Mesh() const { return mesh_; }
   const Quadric& QuadricOf(int v) const { return task_.quadrics[v]; }
   const CollapseHistory& History() const { return history_; }
-  /// Of a face that was taken out: one that was beside it then, of its chart.
+  /// Of a face that was taken out: one that was beside it then, of its chart where there was one.
   int Heir(int face) const { return heir_[face]; }
-  bool IsDone() const { return queue_.empty(); }
   /// Half of the vertices that may move cost at least as much at first, about.
   double MedianCost() const { return median_cost_; }
 

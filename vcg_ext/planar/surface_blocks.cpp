@@ -2,7 +2,6 @@
 #include "planar/surface_blocks.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace dcharts {
 namespace {

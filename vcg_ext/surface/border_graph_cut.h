@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -25,7 +26,8 @@ namespace dcharts {
 /// `Pricing` tells what faces cost. Reach() is how far from the border it wants to see faces;
 /// Prepare(a, b, nearby, band, ids) is called for each pair with the faces of both charts up to there and
 /// with those that are dealt out; then operator()(k) is the price per area of having face k of the band in b
-/// less that of having it in a. It reads nothing of other charts. Each thread has a copy.
+/// less that of having it in a. It reads nothing of other charts and keeps
+/// nothing from one pair for the next: each thread has a copy.
 template <class MeshType, class Pricing>
 class BorderGraphCut {
  public:

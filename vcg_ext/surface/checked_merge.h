@@ -48,7 +48,7 @@ class CheckedMerger {
   static constexpr int kMany = 8;              // charts
   static constexpr double kWorthTrying = 1.4;  // the L2 stretch without darts
 
-  // Darts have let through as many merges, which in another order need not be made.
+  // With as many merges that needed darts, all is done again: in another order they need not be made.
   static constexpr int kManyWithDarts = 2;
 
   // With most effort a pair gets more darts, and is drawn apart where it laps over itself.

@@ -373,13 +373,19 @@ DartedChart CutLargeChart(const ChartPatch& patch, const Flattening* known, cons
   constexpr double kHopeless = 1.2;  // of the goal's L2 - 1
   DartedChart chart = Uncut(patch);
   // Of a very large chart, half of the way to the coarser one is that which flattening it without darts goes.
-  const NormalizedChart normalized = Normalized(patch.mesh);
+  NormalizedChart normalized;
   std::optional<CoarseChart> between;
-  if (patch.faces.size() > kVeryManyFaces) between.emplace(CoarserChart(normalized.mesh, poll));
+  if (patch.faces.size() > kVeryManyFaces) {
+    normalized = Normalized(patch.mesh);
+    between.emplace(CoarserChart(normalized.mesh, poll));
+  }
   const CoarseChart* const coarser = between ? &*between : nullptr;
   const CoarseChart coarse(coarser ? coarser->Mesh() : patch.mesh, kEnoughFaces, poll);
   if (!IsLargeChart(coarse.Mesh())) {
-    ChartPatch small{coarse.SourceFaces(), coarse.Mesh(), coarse.Opposite()};
+    ChartPatch small;
+    small.faces = coarse.SourceFaces();
+    small.mesh = coarse.Mesh();
+    small.opposite = coarse.Opposite();
     std::vector<int> source = coarse.SourceVertices();
     if (coarser) {
       for (int& f : small.faces) f = coarser->SourceFaces()[f];
