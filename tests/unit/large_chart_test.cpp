@@ -158,7 +158,8 @@ TEST(LargeChart, TheTrialKeepsToItsBoundAndUsesItsStart) {
 }
 
 TEST(LargeChart, PollStopsIt) {
-  const test::Threads threads(1);  // with more it is polled while one waits for another, so more or less often
+  const test::Threads threads(
+      1);  // with more it is polled while one waits for another, so more or less often
   const ChartMesh chart = SphereCap(kLarge, 1.0);
   int polls = 0;
   Flatten(chart, {}, [&] { ++polls; });

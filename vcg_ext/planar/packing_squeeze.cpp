@@ -145,7 +145,8 @@ class GuidedSearch {
         }
       }
     }
-    // Column after column, a block of rows side by side: more than compilers unroll, so that they use vectors.
+    // Column after column, a block of rows side by side: more than compilers unroll, so that they use
+    // vectors.
     for (int y = 0; y < side_; y += kBlock) {
       int weights[kBlock] = {}, sum[kBlock] = {};
       for (int x = 0; x <= side_; ++x) {
