@@ -158,8 +158,7 @@ TEST(LargeChart, TheTrialKeepsToItsBoundAndUsesItsStart) {
 }
 
 TEST(LargeChart, PollStopsIt) {
-  const test::Threads threads(
-      1);  // with more it is polled while one waits for another, so more or less often
+  const test::Threads threads(1);  // with more it is polled more or less often, while one waits for another
   const ChartMesh chart = SphereCap(kLarge, 1.0);
   int polls = 0;
   Flatten(chart, {}, [&] { ++polls; });
