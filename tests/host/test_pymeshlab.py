@@ -330,12 +330,12 @@ def test_conformal_keeps_angles(plush):
 def test_density_follows_vertex_quality(plush):
     """Texels per length of a chart are in proportion to the mean quality of its vertices; staged and at once the same."""
     ms = load(plush)
-    ms.compute_scalar_by_function_per_vertex(q='1 + 3 * (x > 0)')
+    ms.compute_scalar_by_function_per_vertex(q='1 + 3 * (y > 0)')
     quality = ms.current_mesh().vertex_scalar_array()
     assert set(quality) == {1, 4}
     ms.apply_filter(ATLAS, density_by='Vertex Quality')
     staged = load(plush)
-    staged.compute_scalar_by_function_per_vertex(q='1 + 3 * (x > 0)')
+    staged.compute_scalar_by_function_per_vertex(q='1 + 3 * (y > 0)')
     for name in STAGES[:-1]:
         staged.apply_filter(name)
     staged.dcharts_parameterize(density_by='Vertex Quality')
