@@ -72,7 +72,6 @@ class ChartCutter {
       const auto& [before, faces] = charts[k];
       const ChartPatch patch = extractor.Extract(faces);
       DartGoal goal = GoalOf(patch, halfway);
-      goal.l2_bound = params_.StretchBound();
       goal.may_give_up = false;
       DartedChart darted = CutStretchDarts(patch, known.Find(patch), goal, [this] { progress_.Poll(); });
       if (!darted.flat.ok || darted.count == 0 || darted.flat.l2_stretch >= before) {
@@ -198,6 +197,7 @@ class ChartCutter {
     constexpr double kWorstStretch = 1.3;
     DartGoal goal;
     goal.l2_stretch = bound;
+    goal.l2_bound = params_.StretchBound();
     goal.linf_stretch = kWorstStretch;
     if (params_.dart_by == DartMethod::kMeasuredStretch)
       goal.longest = params_.max_dart_percent / 100 * patch.Diagonal();

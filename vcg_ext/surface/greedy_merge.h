@@ -165,7 +165,7 @@ class GreedyMerger {
   struct AheadTrial {
     std::vector<int> parts{};
     bool fine = false;
-    bool is_needed = false, is_made = false;
+    bool is_open = false;  // needed, and not made yet
   };
 
   AheadTrial TrialFor(const Item& item) {
@@ -173,12 +173,12 @@ class GreedyMerger {
     AheadTrial trial{groups_.PartsOfBoth(a, b), tried};
     if (!tried) {
       const auto made = groups_.ahead.find(trial.parts);
-      trial.is_needed = groups_.IsToBeTried(trial.parts);
-      trial.is_made = made != groups_.ahead.end() && made->second.first == groups_.CoarseBound();
+      trial.is_open = groups_.IsToBeTried(trial.parts) &&
+                      (made == groups_.ahead.end() || made->second.first != groups_.CoarseBound());
     } else {
       const auto made = fine_ahead_.find(trial.parts);
-      trial.is_needed = !IsClearlyWithin(unions_[{a, b}].trial);
-      trial.is_made = made != fine_ahead_.end() && made->second.first == groups_.bound;
+      trial.is_open = !IsClearlyWithin(unions_[{a, b}].trial) &&
+                      (made == fine_ahead_.end() || made->second.first != groups_.bound);
     }
     return trial;
   }
@@ -190,7 +190,7 @@ class GreedyMerger {
     const size_t free = static_cast<size_t>(FreeThreads());
     if (free == 0) return;
     std::vector<AheadTrial> trials{TrialFor(first)};
-    if (!trials.front().is_needed || trials.front().is_made) return;
+    if (!trials.front().is_open) return;
     std::set<int> charts{std::get<2>(first), std::get<3>(first)};
     std::vector<Item> seen;
     while (trials.size() <= free && seen.size() < kLookedAt && !queue_.empty()) {
@@ -201,7 +201,7 @@ class GreedyMerger {
       if (charts.count(std::get<2>(item)) > 0 || charts.count(std::get<3>(item)) > 0) continue;
       charts.insert({std::get<2>(item), std::get<3>(item)});
       AheadTrial trial = TrialFor(item);
-      if (trial.is_needed && !trial.is_made) trials.push_back(std::move(trial));
+      if (trial.is_open) trials.push_back(std::move(trial));
     }
     for (const Item& item : seen) queue_.push(item);
     if (trials.size() > 1) Make(trials);
