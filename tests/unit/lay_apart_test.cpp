@@ -51,7 +51,7 @@ TEST(LayApart, ARingThatIsALittleTooLongOpens) {
     const TrialFlattening flat = TrialFlatten(mesh);
     ASSERT_TRUE(flat.ok);
     ASSERT_TRUE(Overlaps(mesh, flat.uv));
-    const auto apart = LayApart(mesh, flat.uv, kNoBound, [] {});
+    const auto apart = LayApart(mesh, flat.uv, kNoBound, ApartMapFor::kAtlas, [] {});
     ASSERT_TRUE(apart.has_value());
     EXPECT_FALSE(Overlaps(mesh, apart->uv));
     const StretchFigures figures = MeasureStretch(mesh, apart->uv);
@@ -67,24 +67,24 @@ TEST(LayApart, ARingThatIsALittleTooLongOpens) {
 TEST(LayApart, KeepsWithinTheBound) {
   const ChartMesh mesh = Screw(364, 4);
   const TrialFlattening flat = TrialFlatten(mesh);
-  const auto apart = LayApart(mesh, flat.uv, kNoBound, [] {});
+  const auto apart = LayApart(mesh, flat.uv, kNoBound, ApartMapFor::kAtlas, [] {});
   ASSERT_TRUE(apart.has_value());
-  EXPECT_TRUE(LayApart(mesh, flat.uv, apart->l2_stretch + 1e-9, [] {}).has_value());
-  EXPECT_FALSE(LayApart(mesh, flat.uv, apart->l2_stretch - 1e-6, [] {}).has_value());
+  EXPECT_TRUE(LayApart(mesh, flat.uv, apart->l2_stretch + 1e-9, ApartMapFor::kAtlas, [] {}).has_value());
+  EXPECT_FALSE(LayApart(mesh, flat.uv, apart->l2_stretch - 1e-6, ApartMapFor::kAtlas, [] {}).has_value());
 }
 
 TEST(LayApart, GivesUpWhereMuchLiesOnTop) {
   const ChartMesh mesh = Screw(600, 4);
   const TrialFlattening flat = TrialFlatten(mesh);
   ASSERT_TRUE(flat.ok);
-  EXPECT_FALSE(LayApart(mesh, flat.uv, 1.01, [] {}).has_value());
+  EXPECT_FALSE(LayApart(mesh, flat.uv, 1.01, ApartMapFor::kAtlas, [] {}).has_value());
 }
 
 TEST(LayApart, LeavesWhatDoesNotOverlap) {
   const ChartMesh mesh = Screw(300, 4);
   const TrialFlattening flat = TrialFlatten(mesh);
   ASSERT_FALSE(Overlaps(mesh, flat.uv));
-  const auto apart = LayApart(mesh, flat.uv, kNoBound, [] {});
+  const auto apart = LayApart(mesh, flat.uv, kNoBound, ApartMapFor::kAtlas, [] {});
   ASSERT_TRUE(apart.has_value());
   EXPECT_FALSE(Overlaps(mesh, apart->uv));
   EXPECT_NEAR(apart->l2_stretch, flat.l2_stretch, 1e-4);
@@ -94,7 +94,7 @@ TEST(LayApart, CanBeStopped) {
   struct Stop {};
   const ChartMesh mesh = Screw(364, 4);
   const TrialFlattening flat = TrialFlatten(mesh);
-  EXPECT_THROW(LayApart(mesh, flat.uv, kNoBound, [] { throw Stop(); }), Stop);
+  EXPECT_THROW(LayApart(mesh, flat.uv, kNoBound, ApartMapFor::kAtlas, [] { throw Stop(); }), Stop);
 }
 
 }  // namespace

@@ -256,55 +256,54 @@ bool MadeReady(const Triangles& triangles, RestShapes& shapes, PlanePoints& map)
 
 // A map of the chart whose parts are at least `gap` apart, lengths of rim edges; nothing when there is none.
 std::optional<PlanePoints> ApartFrom(const ChartMesh& normalized, PlanePoints map, double gap,
-                                     const std::function<void()>& poll) {
+                                     ApartMapFor use, const std::function<void()>& poll) {
   RestShapes shapes = RestShapesOf(normalized);
   if (!MadeReady(normalized.triangles, shapes, map)) return std::nullopt;
   ApartDrawer drawer(normalized, shapes, gap, poll);
   if (!drawer.Run(map)) return std::nullopt;
+  if (use == ApartMapFor::kMeasuring) return map;
   drawer.SpreadOut(map);
   LowerWorst(normalized.triangles, shapes, poll, map);
   return map;
 }
 
 // No rows when there is none.
-Points2 FlatApart(const ChartMesh& chart, double gap, const std::function<void()>& poll) {
+Points2 FlatApart(const ChartMesh& chart, double gap, ApartMapFor use, const std::function<void()>& poll) {
   const NormalizedChart normalized = Normalized(chart);
   if (IsLargeChart(chart)) {
     RestShapes shapes = RestShapesOf(normalized.mesh);
-    const auto flatten = [&](const ChartMesh& coarse) { return FlatApart(coarse, gap, poll); };
+    const auto flatten = [&](const ChartMesh& coarse) { return FlatApart(coarse, gap, use, poll); };
     const std::optional<PlanePoints> map = MapFromCoarser(normalized.mesh, nullptr, flatten, poll, shapes);
     return map ? ToPoints(*map, normalized.scale) : Points2();
   }
   const TrialFlattening flat = TrialFlatten(chart, {}, poll);
   if (!flat.ok) return Points2();
-  const std::optional<PlanePoints> map = ApartFrom(normalized.mesh, ToPlanePoints(flat.uv), gap, poll);
+  const std::optional<PlanePoints> map = ApartFrom(normalized.mesh, ToPlanePoints(flat.uv), gap, use, poll);
   return map ? ToPoints(*map, normalized.scale) : Points2();
 }
 
 // A map continued from one of a coarser chart, whose parts are farther apart. `normalized`: of `chart`.
 std::optional<PlanePoints> ApartFromCoarser(const ChartMesh& chart, const ChartMesh& normalized,
-                                            const std::function<void()>& poll) {
+                                            ApartMapFor use, const std::function<void()>& poll) {
   constexpr double kWideGap = 0.3;
-  const Points2 uv = FlatApart(chart, kWideGap, poll);
+  const Points2 uv = FlatApart(chart, kWideGap, use, poll);
   if (uv.rows() == 0 || OverlapsItself(uv, chart.triangles, poll)) return std::nullopt;
   RestShapes shapes = RestShapesOf(normalized);
   PlanePoints map = ToPlanePoints(uv);
   if (!MadeReady(chart.triangles, shapes, map)) return std::nullopt;
-  LowerWorst(chart.triangles, shapes, poll, map);
+  if (use == ApartMapFor::kAtlas) LowerWorst(chart.triangles, shapes, poll, map);
   return map;
 }
 
 }  // namespace
 
-std::optional<ApartMap> LayApart(const ChartMesh& chart, const Points2& uv, double l2_bound,
+std::optional<ApartMap> LayApart(const ChartMesh& chart, const Points2& uv, double l2_bound, ApartMapFor use,
                                  const std::function<void()>& poll) {
   const NormalizedChart normalized = Normalized(chart);
   if (!(normalized.scale > 0)) return std::nullopt;
-  constexpr int kManyTriangles = 100000;  // for linear solves
-  std::optional<PlanePoints> map;
-  if (IsLargeChart(chart)) map = ApartFromCoarser(chart, normalized.mesh, poll);
-  if (!map && chart.triangles.rows() <= kManyTriangles)
-    map = ApartFrom(normalized.mesh, ToPlanePoints(uv), kGap, poll);
+  std::optional<PlanePoints> map = IsLargeChart(chart)
+                                       ? ApartFromCoarser(chart, normalized.mesh, use, poll)
+                                       : ApartFrom(normalized.mesh, ToPlanePoints(uv), kGap, use, poll);
   if (!map) return std::nullopt;
   const StretchFigures figures = MeasureStretch(normalized.mesh, ToPoints(*map, 1.0));
   if (!(figures.L2() <= l2_bound)) return std::nullopt;

@@ -116,15 +116,10 @@ struct ChartGroups {
     const auto known = trials.find(some);
     if (!IsToBeTried(some)) return known == trials.end() ? kNotTried : known->second.second;
     progress.Poll();
-    const auto made = ahead.find(some);
-    if (made == ahead.end() || made->second.first != CoarseBound())
-      return Record(some, TryChart(parts.CoarsePatch(some), CoarseBound(), Poll()));
-    const ChartTrial trial = made->second.second;
-    ahead.erase(made);
-    return Record(some, trial);
+    return Record(some, TryChart(parts.CoarsePatch(some), CoarseBound(), Poll()));
   }
 
-  /// Trial() has to make the trial of these parts, or takes one that was made ahead.
+  /// Trial() has to make the trial of these parts.
   bool IsToBeTried(const std::vector<int>& some) const {
     const auto known = trials.find(some);
     if (known == trials.end()) return !HoldsOverlap(some);
@@ -248,7 +243,6 @@ struct ChartGroups {
   double bound = kNoBound;  ///< on the L2 stretch of a chart
   double seam_share = 1;    ///< of the price of seams: merges are taken in another order when it is less
   std::map<std::vector<int>, std::pair<double, ChartTrial>> trials;  ///< of parts: bound, trial
-  std::map<std::vector<int>, std::pair<double, ChartTrial>> ahead;   ///< the same, not asked for yet
   std::vector<std::vector<int>> overlapping;                         ///< parts whose chart overlapped itself
   bool overlaps_stay = true;                                         ///< what holds such parts isn't tried
   std::set<std::pair<int, int>> apart;  ///< parts that are not to be in one chart: they would overlap, or a

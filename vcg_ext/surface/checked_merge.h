@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <mutex>
 #include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "common/parallel.h"
-#include "common/threads.h"
 #include "planar/lay_apart.h"
 #include "planar/overlap.h"
 #include "planar/trial_flatten.h"
@@ -234,30 +232,26 @@ class CheckedMerger {
 
   // Pairs that are above the bound together, but not with some darts, if seams don't get longer by that.
   void MergeWithDarts(Effort effort) {
+    std::set<std::pair<int, int>> failed;
     std::map<std::pair<int, int>, ChartTrial> trials;
-    std::map<std::pair<int, int>, Darted> darted;
     while (greedy_.MayMergeMore()) {
       groups_.FindBorders();
+      TryBeforeDarts(effort, trials);
       std::vector<std::tuple<double, int, int>> pairs;
       for (int a = 0; a < static_cast<int>(groups_.charts.size()); ++a)
         for (const auto& [b, length] : groups_.charts[a].borders) {
-          if (a > b) continue;
-          const auto failed = darted.find({a, b});
-          if (failed != darted.end() && !failed->second.lies_flat) continue;
-          const auto [at, is_new] = trials.try_emplace({a, b});
-          if (is_new) at->second = TrialBeforeDarts(groups_.PartsOfBoth(a, b), effort);
-          const double stretch = at->second.stretch;
+          if (a > b || failed.count({a, b}) > 0) continue;
+          const double stretch = trials.at({a, b}).stretch;
           if (stretch > 0 && stretch < kWorthTrying) pairs.push_back({stretch, a, b});
         }
       std::sort(pairs.begin(), pairs.end());
       bool merged = false;
-      for (size_t k = 0; k < pairs.size(); ++k) {
-        const auto [stretch, a, b] = pairs[k];
-        if (darted.count({a, b}) == 0) TryNextWithDarts(pairs, k, effort, darted);
-        const Darted& trial = darted.at({a, b});
-        if (!trial.lies_flat) continue;
+      for (const auto& [stretch, a, b] : pairs) {
         ChartTrial both = trials.at({a, b});
-        both.cut_length = trial.cut_length;
+        if (!LiesFlatWithDarts(a, b, effort, both.cut_length)) {
+          failed.insert({a, b});
+          continue;
+        }
         groups_.charts[groups_.Join(a, b, both)].verified = true;
         merged = true;
         ++merges_with_darts_;
@@ -267,81 +261,70 @@ class CheckedMerger {
     }
   }
 
-  // What came of a pair with darts.
-  struct Darted {
-    bool lies_flat = false;
-    double cut_length = 0;  // of all cuts, model units
-  };
-
-  // Tries a pair, and, as most come to nothing, on threads that have no work those after it.
-  void TryNextWithDarts(const std::vector<std::tuple<double, int, int>>& pairs, size_t first, Effort effort,
-                        std::map<std::pair<int, int>, Darted>& darted) {
-    std::vector<std::pair<int, int>> next;
-    constexpr int kMostAtOnce = 8;  // each has its own copy of a fine chart
-    const size_t most = static_cast<size_t>(1 + std::min(FreeThreads(), kMostAtOnce));
-    for (size_t k = first; k < pairs.size() && next.size() < most; ++k) {
-      const std::pair<int, int> pair{std::get<1>(pairs[k]), std::get<2>(pairs[k])};
-      if (darted.count(pair) == 0) next.push_back(pair);
-    }
-    std::vector<Darted> made(next.size());
-    InParallel(static_cast<int>(next.size()), groups_.Poll(), [&](int k, const std::function<void()>& poll) {
-      made[k].lies_flat = LiesFlatWithDarts(next[k].first, next[k].second, effort, poll, made[k].cut_length);
-    });
-    for (size_t k = 0; k < next.size(); ++k) darted.emplace(next[k], made[k]);
-  }
-
-  // Without stretch when the parts may not come together.
-  ChartTrial TrialBeforeDarts(const std::vector<int>& some, Effort effort) {
-    if (effort == Effort::kUsual) return groups_.MayStandTogether(some) ? groups_.Trial(some) : ChartTrial();
-    return groups_.HoldKeptBorder(some)
-               ? ChartTrial()
-               : TryChartWithOverlaps(groups_.parts.CoarsePatch(some), kWorthTrying, groups_.Poll());
+  // Makes the trials of neighbours that are not there, without darts. They have no stretch when the parts may
+  // not come together.
+  void TryBeforeDarts(Effort effort, std::map<std::pair<int, int>, ChartTrial>& trials) {
+    std::vector<ChartTrial*> made;
+    std::vector<ChartPatch> patches;
+    for (int a = 0; a < static_cast<int>(groups_.charts.size()); ++a)
+      for (const auto& [b, length] : groups_.charts[a].borders) {
+        if (a > b) continue;
+        const auto [at, is_new] = trials.try_emplace({a, b});
+        if (!is_new) continue;
+        const std::vector<int> both = groups_.PartsOfBoth(a, b);
+        if (effort == Effort::kUsual) {
+          if (groups_.MayStandTogether(both)) at->second = groups_.Trial(both);
+        } else if (!groups_.HoldKeptBorder(both)) {
+          made.push_back(&at->second);
+          patches.push_back(groups_.parts.CoarsePatch(both));
+        }
+      }
+    ParallelForLargestFirst(
+        static_cast<int>(made.size()), groups_.progress, [&](int k) { return patches[k].faces.size(); },
+        [&](int k, const std::function<void()>& poll) {
+          *made[k] = TryChartWithOverlaps(patches[k], kWorthTrying, poll);
+        });
   }
 
   // Its parts can be drawn apart, which must not crumple it.
-  static bool ComesApart(const DartedChart& chart, double l2_bound, const std::function<void()>& poll) {
+  bool ComesApart(const DartedChart& chart, double l2_bound) {
     constexpr double kWorstStretch = 1.8;
-    const auto apart = LayApart(chart.patch.mesh, chart.flat.uv, l2_bound, poll);
+    const auto apart =
+        LayApart(chart.patch.mesh, chart.flat.uv, l2_bound, ApartMapFor::kAtlas, groups_.Poll());
     return apart && apart->linf_stretch <= kWorstStretch;
   }
 
   // `cut_length` is set to that of all cuts, model units.
-  bool LiesFlatWithDarts(int a, int b, Effort effort, const std::function<void()>& poll, double& cut_length) {
+  bool LiesFlatWithDarts(int a, int b, Effort effort, double& cut_length) {
     constexpr int kFewDarts = 4, kManyDarts = 8;
     const std::vector<int> both = groups_.PartsOfBoth(a, b);
     const auto &one = groups_.charts[a], &other = groups_.charts[b];
     const double longest =
         one.borders.at(b) * groups_.parts.Unit() + one.trial.cut_length + other.trial.cut_length;
     for (const bool coarse : {true, false}) {
-      const ChartPatch open = Opened(Patch(both, coarse), cut_length);
+      const ChartPatch open =
+          Opened(coarse ? groups_.parts.CoarsePatch(both) : groups_.parts.FinePatch(both), cut_length);
       DartGoal goal;
       goal.l2_stretch = coarse ? groups_.CoarseBound() : groups_.bound;
       goal.linf_stretch = kNoBound;
       goal.most_darts = effort == Effort::kMost ? kManyDarts : kFewDarts;
       goal.longest = groups_.params.max_dart_percent / 100 * open.Diagonal();
       // No bound on the length here: Cut has none and is to find the same darts.
-      const DartedChart darted = CutStretchDarts(open, nullptr, goal, poll);
+      const DartedChart darted = CutStretchDarts(open, nullptr, goal, groups_.Poll());
       for (int h : darted.edges) cut_length += open.Length(h);
       constexpr double kRounding = 1e-6;  // darts to the corners of a box may be just as long as its rim
       if (cut_length > (1 + kRounding) * longest) return false;
       if (!darted.flat.ok || darted.flat.l2_stretch > goal.l2_stretch) return false;
       if (!OverlapsItself(darted.flat.uv, darted.patch.mesh.triangles)) continue;
       if (effort == Effort::kUsual) return false;
-      if (!coarse && !ComesApart(darted, goal.l2_stretch, poll)) return false;
+      if (!coarse && !ComesApart(darted, goal.l2_stretch)) return false;
     }
     return true;
-  }
-
-  // One at a time: the parts keep arrays for it.
-  ChartPatch Patch(const std::vector<int>& some, bool coarse) {
-    const std::lock_guard<std::mutex> lock(patch_mutex_);
-    return coarse ? groups_.parts.CoarsePatch(some) : groups_.parts.FinePatch(some);
   }
 
   ChartGroups<MeshType>& groups_;
   GreedyMerger<MeshType> greedy_;
   int merges_with_darts_ = 0;
-  std::mutex patch_mutex_;
 };
 
 }  // namespace dcharts

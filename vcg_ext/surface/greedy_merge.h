@@ -10,8 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/parallel.h"
-#include "common/threads.h"
 #include "surface/chart_groups.h"
 
 namespace dcharts {
@@ -32,11 +30,9 @@ class GreedyMerger {
   void Run() {
     StartQueue();
     while (!queue_.empty() && MayMergeMore()) {
-      const Item first = queue_.top();
-      const auto [later, key, a, b, tried] = first;
+      const auto [later, key, a, b, tried] = queue_.top();
       queue_.pop();
-      if (!IsAlive(first)) continue;
-      TryAhead(first);
+      if (!groups_.charts[a].alive || !groups_.charts[b].alive) continue;
       if (!tried)
         TryPair(a, b);
       else if (groups_.params.target_charts > 0 || groups_.bound < ChartGroups<MeshType>::kNoBound || key < 0)
@@ -116,11 +112,13 @@ class GreedyMerger {
 
   void AcceptPair(int a, int b) {
     Union& both = unions_[{a, b}];
-    if (!IsClearlyWithin(both.trial) && !IsFlatOnFine(groups_.PartsOfBoth(a, b))) {
+    const bool is_clear = IsClearlyWithin(both.trial);
+    if (!is_clear && !IsFlatOnFine(groups_.PartsOfBoth(a, b))) {
       Refuse(a, b);
       return;
     }
     const int n = groups_.Join(a, b, both.trial);
+    groups_.charts[n].verified = !is_clear;
     for (int x : {a, b})
       for (const auto& [c, length] : groups_.charts[x].borders)
         if (c != a && c != b) groups_.charts[n].borders[c] += length;
@@ -147,88 +145,14 @@ class GreedyMerger {
   }
 
   bool IsFlatOnFine(const std::vector<int>& some) {
-    const auto made = fine_ahead_.find(some);
-    if (made == fine_ahead_.end() || made->second.first != groups_.bound)
-      return TryChart(groups_.parts.FinePatch(some), groups_.bound, groups_.Poll()).flat;
-    const bool flat = made->second.second;
-    fine_ahead_.erase(made);
-    return flat;
+    return TryChart(groups_.parts.FinePatch(some), groups_.bound, groups_.Poll()).flat;
   }
 
   using Item = std::tuple<bool, double, int, int, bool>;  // not tiny, cost, charts, whether it is exact
 
-  bool IsAlive(const Item& item) const {
-    return groups_.charts[std::get<2>(item)].alive && groups_.charts[std::get<3>(item)].alive;
-  }
-
-  // A trial that an item of the queue needs when it comes first.
-  struct AheadTrial {
-    std::vector<int> parts{};
-    bool fine = false;
-    bool is_open = false;  // needed, and not made yet
-  };
-
-  AheadTrial TrialFor(const Item& item) {
-    const auto [later, key, a, b, tried] = item;
-    AheadTrial trial{groups_.PartsOfBoth(a, b), tried};
-    if (!tried) {
-      const auto made = groups_.ahead.find(trial.parts);
-      trial.is_open = groups_.IsToBeTried(trial.parts) &&
-                      (made == groups_.ahead.end() || made->second.first != groups_.CoarseBound());
-    } else {
-      const auto made = fine_ahead_.find(trial.parts);
-      trial.is_open = !IsClearlyWithin(unions_[{a, b}].trial) &&
-                      (made == fine_ahead_.end() || made->second.first != groups_.bound);
-    }
-    return trial;
-  }
-
-  // While the first pair's trial is made, threads without work make those of the next pairs in the queue.
-  // Pairs with a chart of one before them are left out, as they may never come.
-  void TryAhead(const Item& first) {
-    constexpr size_t kLookedAt = 12;
-    const size_t free = static_cast<size_t>(FreeThreads());
-    if (free == 0) return;
-    std::vector<AheadTrial> trials{TrialFor(first)};
-    if (!trials.front().is_open) return;
-    std::set<int> charts{std::get<2>(first), std::get<3>(first)};
-    std::vector<Item> seen;
-    while (trials.size() <= free && seen.size() < kLookedAt && !queue_.empty()) {
-      const Item item = queue_.top();
-      queue_.pop();
-      if (!IsAlive(item)) continue;
-      seen.push_back(item);
-      if (charts.count(std::get<2>(item)) > 0 || charts.count(std::get<3>(item)) > 0) continue;
-      charts.insert({std::get<2>(item), std::get<3>(item)});
-      AheadTrial trial = TrialFor(item);
-      if (trial.is_open) trials.push_back(std::move(trial));
-    }
-    for (const Item& item : seen) queue_.push(item);
-    if (trials.size() > 1) Make(trials);
-  }
-
-  void Make(const std::vector<AheadTrial>& trials) {
-    std::vector<ChartPatch> patches;
-    for (const AheadTrial& trial : trials)
-      patches.push_back(trial.fine ? groups_.parts.FinePatch(trial.parts)
-                                   : groups_.parts.CoarsePatch(trial.parts));
-    std::vector<ChartTrial> made(trials.size());
-    InParallel(static_cast<int>(trials.size()), groups_.Poll(),
-               [&](int k, const std::function<void()>& poll) {
-                 made[k] = TryChart(patches[k], trials[k].fine ? groups_.bound : groups_.CoarseBound(), poll);
-               });
-    for (size_t k = 0; k < trials.size(); ++k)
-      if (trials[k].fine)
-        fine_ahead_[trials[k].parts] = {groups_.bound, made[k].flat};
-      else
-        groups_.ahead[trials[k].parts] = {groups_.CoarseBound(), made[k]};
-  }
-
   ChartGroups<MeshType>& groups_;
   std::map<std::pair<int, int>, Union> unions_;
   std::set<std::vector<int>> refused_;  // parts that failed on the fine surface
-  std::map<std::vector<int>, std::pair<double, bool>>
-      fine_ahead_;  // parts: bound, whether flat on the fine surface
   std::priority_queue<Item, std::vector<Item>, std::greater<>> queue_;
 };
 

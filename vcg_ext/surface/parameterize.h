@@ -153,10 +153,12 @@ class Parameterizer {
 
   // Where that is enough, nothing has to be cut off.
   void DrawApart(Piece& piece, const std::function<void()>& poll) const {
-    std::optional<ApartMap> apart = LayApart(piece.patch.mesh, piece.uv, params_.StretchBound(), poll);
-    if (!apart) {  // as Merge has tried it
+    std::optional<ApartMap> apart =
+        LayApart(piece.patch.mesh, piece.uv, params_.StretchBound(), ApartMapFor::kAtlas, poll);
+    if (!apart && !IsLargeChart(piece.patch.mesh)) {  // as Merge has tried it
       const TrialFlattening flat = TrialFlatten(piece.patch.mesh, {}, poll);
-      if (flat.ok) apart = LayApart(piece.patch.mesh, flat.uv, params_.StretchBound(), poll);
+      if (flat.ok)
+        apart = LayApart(piece.patch.mesh, flat.uv, params_.StretchBound(), ApartMapFor::kAtlas, poll);
     }
     if (!apart) return;
     piece.is_new = true;

@@ -158,7 +158,7 @@ class BorderRefiner {
   // As Merge may have done it.
   static bool DrawApart(const ChartMesh& mesh, double bound, const std::function<void()>& poll,
                         TrialFlattening& flat) {
-    std::optional<ApartMap> apart = LayApart(mesh, flat.uv, bound, poll);
+    std::optional<ApartMap> apart = LayApart(mesh, flat.uv, bound, ApartMapFor::kMeasuring, poll);
     if (!apart) return false;
     flat.uv = std::move(apart->uv);
     flat.l2_stretch = apart->l2_stretch;

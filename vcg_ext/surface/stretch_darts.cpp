@@ -340,7 +340,8 @@ class DartSearch {
 
 // Of a chart that laps over itself a little.
 bool DrawApart(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart) {
-  std::optional<ApartMap> apart = LayApart(chart.patch.mesh, chart.flat.uv, goal.l2_stretch, poll);
+  std::optional<ApartMap> apart =
+      LayApart(chart.patch.mesh, chart.flat.uv, goal.l2_stretch, ApartMapFor::kAtlas, poll);
   if (!apart) return false;
   chart.flat.uv = std::move(apart->uv);
   chart.flat.l2_stretch = apart->l2_stretch;
