@@ -61,6 +61,11 @@ TEST(LayApart, ARingThatIsALittleTooLongOpens) {
     EXPECT_GE(apart->l2_stretch, flat.l2_stretch - 1e-4);
     EXPECT_LT(apart->l2_stretch, 1.005);
     EXPECT_LT(apart->linf_stretch, 1.6);
+    const auto measured = LayApart(mesh, flat.uv, kNoBound, ApartMapFor::kMeasuring, [] {});
+    ASSERT_TRUE(measured.has_value());
+    EXPECT_FALSE(Overlaps(mesh, measured->uv));
+    EXPECT_LT(measured->l2_stretch, 1.005);
+    EXPECT_GE(measured->linf_stretch, apart->linf_stretch);
   }
 }
 
