@@ -114,16 +114,13 @@ struct ChartGroups {
   const ChartTrial& Trial(const std::vector<int>& some) {
     static const ChartTrial kNotTried;
     const auto known = trials.find(some);
-    if (!IsToBeTried(some)) return known == trials.end() ? kNotTried : known->second.second;
+    if (known == trials.end()) {
+      if (HoldsOverlap(some)) return kNotTried;
+    } else if (known->second.second.flat || known->second.first >= CoarseBound()) {
+      return known->second.second;
+    }
     progress.Poll();
     return Record(some, TryChart(parts.CoarsePatch(some), CoarseBound(), Poll()));
-  }
-
-  /// Trial() has to make the trial of these parts.
-  bool IsToBeTried(const std::vector<int>& some) const {
-    const auto known = trials.find(some);
-    if (known == trials.end()) return !HoldsOverlap(some);
-    return !known->second.second.flat && known->second.first < CoarseBound();
   }
 
   /// These parts are never to be a chart.

@@ -155,7 +155,7 @@ class Parameterizer {
   void DrawApart(Piece& piece, const std::function<void()>& poll) const {
     std::optional<ApartMap> apart =
         LayApart(piece.patch.mesh, piece.uv, params_.StretchBound(), ApartMapFor::kAtlas, poll);
-    if (!apart && !IsLargeChart(piece.patch.mesh)) {  // as Merge has tried it
+    if (!apart && !IsLargeChart(piece.patch.mesh)) {  // from the map that Merge has tried
       const TrialFlattening flat = TrialFlatten(piece.patch.mesh, {}, poll);
       if (flat.ok)
         apart = LayApart(piece.patch.mesh, flat.uv, params_.StretchBound(), ApartMapFor::kAtlas, poll);
