@@ -113,15 +113,22 @@ bool Reached(const Flattening& flat, const DartGoal& goal) {
 
 // A dart is worth its length when the worst stretch falls by as much as this for each unit of it, or, where
 // the mean stretch is too high, when that falls by a fair share.
+constexpr double kLinfPerUnit = 1.5;
+constexpr double kShareOfL2 = 0.1;
+
 bool Helps(const Flattening& before, const Flattening& after, double length, const DartGoal& goal) {
-  constexpr double kLinfPerUnit = 1.5;
-  constexpr double kShareOfL2 = 0.1;
   if (!after.ok) return false;
   if (before.l2_stretch > goal.l2_stretch)
     return after.l2_stretch - 1 < (1 - kShareOfL2) * (before.l2_stretch - 1);
   if (after.l2_stretch > goal.l2_stretch) return false;
   return before.linf_stretch - std::max(after.linf_stretch, goal.linf_stretch) >
          kLinfPerUnit * length / goal.unit;
+}
+
+// False when no dart as long as this helps, whatever it does.
+bool MayHelp(const Flattening& before, double length, const DartGoal& goal) {
+  return before.l2_stretch > goal.l2_stretch ||
+         before.linf_stretch - goal.linf_stretch > kLinfPerUnit * length / goal.unit;
 }
 
 // The vertices at which a chart of flat and rolled parts comes to a point; none when it is curved elsewhere,
@@ -256,6 +263,9 @@ class DartSearch {
 
   // Makes the trials that have not been made.
   void TryAll(const PatchPaths& paths, std::vector<int> tips) {
+    const auto length = [&](int tip) { return paths.Distance(chart_.patch.Vertex(tip)); };
+    for (int tip : tips)
+      if (!MayHelp(chart_.flat, length(tip), goal_)) trials_.emplace(tip, DartedChart());
     tips.erase(std::remove_if(tips.begin(), tips.end(), [&](int tip) { return trials_.count(tip) > 0; }),
                tips.end());
     if (tips.empty()) return;
@@ -266,7 +276,7 @@ class DartSearch {
     std::vector<DartedChart> made(tips.size());
     InParallel(static_cast<int>(tips.size()), poll_, [&](int k, const std::function<void()>& poll) {
       const int v = chart_.patch.Vertex(tips[k]);
-      if (!Try(tips[k], paths.Path(v), paths.Distance(v), poll, made[k])) made[k] = {};
+      if (!Try(tips[k], paths.Path(v), length(tips[k]), poll, made[k])) made[k] = {};
     });
     for (size_t k = 0; k < tips.size(); ++k) trials_.emplace(tips[k], std::move(made[k]));
   }
