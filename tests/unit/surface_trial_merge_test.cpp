@@ -21,7 +21,8 @@ using test::TestSurface;
 
 ChartIds Merged(const TestSurface& surface, ChartIds ids, const Params& params = {}) {
   Progress progress;
-  TrialMerger<SurfaceMesh>(*surface, params, progress).Run(ids);
+  KnownFlattenings known;
+  TrialMerger<SurfaceMesh>(*surface, params, progress).Run(ids, known);
   return ids;
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/errors.h"
+#include "common/parallel.h"
 #include "common/pi.h"
 #include "planar/packing_board.h"
 #include "planar/packing_compact.h"
@@ -174,12 +175,19 @@ class Packer {
       s.x = static_cast<int>(std::lround(s.x * coarse));
       s.y = static_cast<int>(std::lround(s.y * coarse));
     }
-    const int moves = std::min(std::max(800, 40000 / static_cast<int>(turns_.size())), kMostMoves);
-    for (unsigned seed = 0; seed < kSearches; ++seed) {
-      std::vector<Spot> moved = start;
-      const int squeezed = Squeeze(shapes, kCoarse + kCoarse / 40, moves, seed, poll_, &moved);
-      if (squeezed == 0) continue;
-      Packing tight = PackingOf(moved, squeezed);
+    constexpr int kMovesPerChart = 400, kMovesOfMany = 800, kMovesOfAll = 40000;
+    const int count = static_cast<int>(turns_.size());
+    const int moves =
+        std::min({count * kMovesPerChart, std::max(kMovesOfMany, kMovesOfAll / count), kMostMoves});
+    std::vector<std::vector<Spot>> moved(kSearches, start);
+    std::vector<int> squeezed(kSearches, 0);
+    InParallel(kSearches, poll_, [&](int seed, const std::function<void()>& poll) {
+      squeezed[seed] =
+          Squeeze(shapes, kCoarse + kCoarse / 40, moves, static_cast<unsigned>(seed), poll, &moved[seed]);
+    });
+    for (int seed = 0; seed < kSearches; ++seed) {
+      if (squeezed[seed] == 0) continue;
+      Packing tight = PackingOf(moved[seed], squeezed[seed]);
       if (Compact(outlines_, options, packing->scale, poll_, &tight)) {
         tight.padding = packing->padding;
         *packing = std::move(tight);

@@ -16,6 +16,7 @@
 #include "surface/chart_groups.h"
 #include "surface/dissolve_charts.h"
 #include "surface/greedy_merge.h"
+#include "surface/known_flattenings.h"
 #include "surface/merge_improvement.h"
 #include "surface/stretch_darts.h"
 
@@ -25,7 +26,9 @@ namespace dcharts {
 template <class MeshType>
 class CheckedMerger {
  public:
-  explicit CheckedMerger(ChartGroups<MeshType>& groups) : groups_(groups), greedy_(groups) {}
+  /// Darts that were found on the surface itself are left in `known`, if that isn't null.
+  CheckedMerger(ChartGroups<MeshType>& groups, KnownFlattenings* known)
+      : groups_(groups), known_(known), greedy_(groups) {}
 
   void Run() {
     const double bound = groups_.params.StretchBound();
@@ -310,19 +313,22 @@ class CheckedMerger {
       goal.most_darts = effort == Effort::kMost ? kManyDarts : kFewDarts;
       goal.longest = groups_.params.max_dart_percent / 100 * open.Diagonal();
       // No bound on the length here: Cut has none and is to find the same darts.
-      const DartedChart darted = CutStretchDarts(open, nullptr, goal, groups_.Poll());
+      DartedChart darted = CutStretchDarts(open, nullptr, goal, groups_.Poll());
       for (int h : darted.edges) cut_length += open.Length(h);
       constexpr double kRounding = 1e-6;  // darts to the corners of a box may be just as long as its rim
       if (cut_length > (1 + kRounding) * longest) return false;
       if (!darted.flat.ok || darted.flat.l2_stretch > goal.l2_stretch) return false;
-      if (!OverlapsItself(darted.flat.uv, darted.patch.mesh.triangles)) continue;
-      if (effort == Effort::kUsual) return false;
-      if (!coarse && !ComesApart(darted, goal.l2_stretch)) return false;
+      if (OverlapsItself(darted.flat.uv, darted.patch.mesh.triangles)) {
+        if (effort == Effort::kUsual) return false;
+        if (!coarse && !ComesApart(darted, goal.l2_stretch)) return false;
+      }
+      if (!coarse && known_) known_->AddDarts(open, goal, std::move(darted));
     }
     return true;
   }
 
   ChartGroups<MeshType>& groups_;
+  KnownFlattenings* const known_;
   GreedyMerger<MeshType> greedy_;
   int merges_with_darts_ = 0;
 };

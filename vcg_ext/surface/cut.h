@@ -33,7 +33,7 @@ class ChartCutter {
 
   /// All cuts: handles, loops, darts. `seams` is set anew. `ids` change where a chart falls apart along its
   /// cuts, and where one had to be parted to keep within params.max_stretch. Returns the number of darts.
-  /// Flattenings that were made on the way are left in `known`.
+  /// Flattenings that were made on the way are left in `known`, where Merge may have left what it found.
   int Run(ChartIds& ids, SeamMask& seams, KnownFlattenings& known) {
     seams = ChartBorders(surface_, ids);
     OpenHandles(ids, seams);
@@ -150,8 +150,10 @@ class ChartCutter {
       ParallelForLargestFirst(
           static_cast<int>(charts.size()), progress_, [&](int k) { return charts[k].patch.faces.size(); },
           [&](int k, const std::function<void()>& poll) {
-            charts[k] = CutStretchDarts(charts[k].patch, known.Find(charts[k].patch),
-                                        GoalOf(charts[k].patch, bound), poll);
+            const ChartPatch& patch = charts[k].patch;
+            const DartGoal goal = GoalOf(patch, bound);
+            charts[k] =
+                CutStretchDarts(patch, known.Find(patch), goal, poll, known.FindDarts(patch, goal));
           });
       int next_id = ChartCount(ids);
       for (DartedChart& chart : charts) {

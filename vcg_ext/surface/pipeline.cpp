@@ -74,9 +74,9 @@ SurfaceChange ChartsWritten(Workspace& work, const ChartIds& ids, SurfaceChange 
 }
 
 void MergeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, Progress& progress,
-                 ChartIds& ids) {
+                 ChartIds& ids, KnownFlattenings& known) {
   if (params.merge_by == MergeMethod::kTrialFlattening)
-    TrialMerger<SurfaceMesh>(surface, params, progress).Run(ids);
+    TrialMerger<SurfaceMesh>(surface, params, progress).Run(ids, known);
   else
     Merger<SurfaceMesh>(surface, params, progress).Run(ids);
 }
@@ -163,7 +163,8 @@ SurfaceChange Merge(const SurfaceData& mesh, const Params& params, Progress& pro
   ChartIds ids = work.ReadFilledCharts(progress);
   {
     Stage stage("merge", "Merging charts...", 0.02, 1, progress, change.report);
-    MergeCharts(work.Surface(), params, progress, ids);
+    KnownFlattenings known;
+    MergeCharts(work.Surface(), params, progress, ids, known);
   }
   return ChartsWritten(work, ids, std::move(change));
 }
@@ -224,7 +225,7 @@ void MakeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, 
   }
   {
     Stage stage("merge", "Merging charts...", 0.3125 * share, 0.875 * share, progress, report);
-    MergeCharts(surface, params, progress, ids);
+    MergeCharts(surface, params, progress, ids, known);
   }
   Stage stage("cut", "Cutting darts...", 0.875 * share, share, progress, report);
   report.darts = CutCharts(surface, params, use, progress, ids, seams, known);

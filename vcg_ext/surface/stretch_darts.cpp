@@ -359,15 +359,22 @@ bool DrawApart(const DartGoal& goal, const std::function<void()>& poll, DartedCh
   return true;
 }
 
-// Darts that bring the L2 stretch within a goal with finish, whatever becomes of the worst stretch; returns
-// whether it is.
-bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart) {
+// What CutStretchDarts makes of it when only the mean stretch counts, or as far as it comes.
+DartedChart CutForMeanStretchAlone(const DartGoal& goal, const std::function<void()>& poll,
+                                   const ChartPatch& patch) {
   DartGoal mean = goal;
   mean.linf_stretch = std::numeric_limits<double>::infinity();
-  DartedChart darted = chart;
+  DartedChart darted = Uncut(patch);
   // From no start: from another the search would not end at the darts that a trial of the chart has shown.
-  darted.flat = FlatWithoutFinish(chart.patch, nullptr, poll);
+  darted.flat = FlatWithoutFinish(patch, nullptr, poll);
   DartSearch(mean, poll, darted).Run();
+  return darted;
+}
+
+// Darts that bring the L2 stretch within a goal with finish, whatever becomes of the worst stretch; returns
+// whether it is.
+bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, DartedChart darted,
+                       DartedChart& chart) {
   if (darted.count == 0) return false;
   darted.flat = FlatWithFinish(darted.patch, goal, poll);
   if (!darted.flat.ok || (Overlaps(darted) && !DrawApart(goal, poll, darted))) return false;
@@ -434,12 +441,20 @@ DartedChart CutLargeChart(const ChartPatch& patch, const Flattening* known, cons
 }  // namespace
 
 DartedChart CutStretchDarts(const ChartPatch& patch, const Flattening* known, const DartGoal& goal,
-                            const std::function<void()>& poll) {
+                            const std::function<void()>& poll, const DartedChart* mean_darts) {
   if (IsLargeChart(patch.mesh)) return CutLargeChart(patch, known, goal, poll);
   DartedChart chart = Uncut(patch);
+  // A chart that is known to need them need not be flattened without.
+  if (mean_darts && HasFinish(goal) && ConePoints(patch, PatchPaths(patch)).empty() &&
+      CutForMeanStretch(goal, poll, *mean_darts, chart)) {
+    DartSearch(goal, poll, chart).Run();
+    return chart;
+  }
+  chart = Uncut(patch);
   chart.flat = known ? *known : FlatAsAsked(patch, goal, poll);
   if (!chart.flat.ok || CutConePoints(goal, poll, chart)) return chart;
-  if (HasFinish(goal) && chart.flat.l2_stretch > goal.l2_stretch && !CutForMeanStretch(goal, poll, chart))
+  if (HasFinish(goal) && chart.flat.l2_stretch > goal.l2_stretch &&
+      !CutForMeanStretch(goal, poll, CutForMeanStretchAlone(goal, poll, patch), chart))
     return chart;
   DartSearch(goal, poll, chart).Run();
   return chart;

@@ -36,8 +36,10 @@ struct DartedChart {
 /// and flattens it again, until the goal is reached (without the finish that lowers the worst stretch when
 /// that is no part of the goal). A dart that doesn't help, or makes the chart overlap itself, is taken back.
 /// A chart that is developable but for some points gets a dart to each of these. The patch must be one that
-/// can be flattened; `known` is its flattening by the same goal, or null. `poll` may throw to stop the work.
+/// can be flattened. `known` is its flattening by the same goal, or null; `mean_darts`, where they are known,
+/// what this makes of the patch by the same goal without a bound on the Linf stretch, which was reached; they
+/// save time and change nothing. `poll` may throw to stop the work.
 DartedChart CutStretchDarts(const ChartPatch& patch, const Flattening* known, const DartGoal& goal,
-                            const std::function<void()>& poll);
+                            const std::function<void()>& poll, const DartedChart* mean_darts = nullptr);
 
 }  // namespace dcharts

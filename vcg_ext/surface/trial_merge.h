@@ -24,16 +24,17 @@ class TrialMerger {
   /// Every face must have a chart. Charts that don't lie flat well by themselves are split first; then charts
   /// are merged until there are params.target_charts, or, without a target, as long as the stretch of each
   /// stays within params.max_stretch, or, without a bound, as long as a shorter seam is worth the stretch. At
-  /// last the borders are moved to better places.
-  void Run(ChartIds& ids) {
+  /// last the borders are moved to better places. Darts that charts were found to need are left in `known`.
+  void Run(ChartIds& ids, KnownFlattenings& known) {
     Split(ids);
     ChartParts<MeshType> parts = Parts(ids);
     ChartGroups<MeshType> groups(parts, params_, progress_);
-    CheckedMerger<MeshType>(groups).Run();
+    const bool is_copied = parts.Fine().Graph().FaceCount() < surface_.FaceCount();
+    CheckedMerger<MeshType>(groups, is_copied ? nullptr : &known).Run();
     const std::vector<int> owner = groups.Owners();
     for (int& id : ids) id = owner[id];
     SplitAndCompact(surface_, ids);
-    if (parts.Fine().Graph().FaceCount() < surface_.FaceCount())
+    if (is_copied)
       RefineBordersOnCopy(surface_, parts.Fine(), params_, progress_, ids);
     else
       BorderRefiner<MeshType>(surface_, params_, progress_).Run(ids);
