@@ -90,7 +90,7 @@ class Lloyd {
       counts.push_back(std::min(count, most));
     const auto is_good = [&](size_t i) {
       if (i + 1 == counts.size()) return true;  // there are no more
-      return Iterate(counts[i], std::min(kTrialIterations, params_.max_iterations)).energy <= GoodEnergy();
+      return FitWell(counts[i], std::min(kTrialIterations, params_.max_iterations));
     };
     size_t low = 0, high = std::min(2 * kStride, counts.size()) - 1;
     while (!is_good(high)) {
@@ -120,13 +120,37 @@ class Lloyd {
     bool done = false;
   };
 
-  Segmentation Iterate(int count, int max_iterations) {
-    auto& run = runs_[count];
+  Segmentation Iterate(int count, int max_iterations) { return Iterate(RunOf(count), max_iterations); }
+
+  Iterations& RunOf(int count) {
+    Iterations& run = runs_[count];
     if (run.charts.empty()) run.charts = seeds_.FarthestPoints(count);
-    return Iterate(run, max_iterations);
+    return run;
+  }
+
+  // Whether so many charts fit well within `max_iterations`, of which it makes no more than it takes to tell.
+  // Those after the third have lowered the energy by less than half, on all models tried.
+  bool FitWell(int count, int max_iterations) {
+    constexpr int kTelling = 3;
+    constexpr double kHopeless = 2;
+    Iterations& run = RunOf(count);
+    const double good = GoodEnergy();
+    for (int iteration = 1; iteration <= max_iterations; ++iteration) {
+      Advance(run, iteration);
+      if (run.best.energy <= good) return true;
+      if (iteration >= kTelling && run.best.energy > kHopeless * good) return false;
+    }
+    return false;
   }
 
   Segmentation Iterate(Iterations& run, int max_iterations) {
+    Advance(run, max_iterations);
+    Segmentation result = run.best;
+    RemoveSpecks(result.ids);
+    return result;
+  }
+
+  void Advance(Iterations& run, int max_iterations) {
     // The iterations may swing without end: they stop when nothing was gained for a while.
     constexpr int kPatience = 6;
     constexpr double kGain = 0.005;
@@ -145,9 +169,6 @@ class Lloyd {
       if (!run.done) run.charts = ChartsOf(ids);
       run.previous.swap(ids);
     }
-    Segmentation result = run.best;
-    RemoveSpecks(result.ids);
-    return result;
   }
 
   // The iterations may swing: the best one counts.
