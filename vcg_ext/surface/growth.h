@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -25,8 +24,8 @@ namespace dcharts {
 /// (Eq. 2).
 ///
 /// One queue per chart. A chart's area scales all costs in its queue alike (A_C^-beta), so it is kept as one
-/// factor per chart; D and P change when a neighbour joins, so a face is pushed again on every new contact
-/// and entries whose contacts are out of date are skipped.
+/// factor per chart. D and P change when a neighbour joins, so a face is pushed again on every new contact;
+/// as both only get less by that, the last entry is the first to be taken, and the others are stale then.
 template <class MeshType>
 class Growth {
  public:
@@ -71,21 +70,14 @@ class Growth {
   }
 
  private:
-  // An item is a face and, in the last kEdgeBits bits, a mask of its edges that it shared with the chart when
-  // it was pushed. Costs are without the chart's factor A_C^-beta.
-  using Queue = CheapestFirst<std::uint64_t>;
-  static constexpr int kEdgeBits = 3;
-  static int FaceOf(std::uint64_t item) { return static_cast<int>(item >> kEdgeBits); }
+  // Of faces. Costs are without the chart's factor A_C^-beta.
+  using Queue = CheapestFirst<int>;
 
   // What a face's neighbours leave with it when a chart takes them.
   struct Contacts {
     std::array<double, 3> distance;        // D(S,t) of the face by way of edge i
     std::array<int, 3> chart{-1, -1, -1};  // beyond edge i: a chart's stamp
 
-    unsigned With(int stamp) const {
-      return static_cast<unsigned>(chart[0] == stamp) | static_cast<unsigned>(chart[1] == stamp) << 1 |
-             static_cast<unsigned>(chart[2] == stamp) << 2;
-    }
     double Distance(int stamp) const {
       double least = kNoBound;
       for (int i = 0; i < 3; ++i) least = std::min(least, chart[i] == stamp ? distance[i] : kNoBound);
@@ -127,9 +119,8 @@ class Growth {
     for (int step = 0; tournament_.Winner() != Tournament::kNobody; ++step) {
       if (poll_ && step % kPollEvery == 0) poll_();
       const int c = tournament_.Winner();
-      const auto item = queues_[c].Top().item;
-      if (!IsStale(c, item)) {  // else another chart took the face meanwhile
-        const int face = FaceOf(item);
+      const int face = queues_[c].Top().item;
+      if (IsFree(face)) {  // else another chart took it meanwhile
         Take(c, face);
         ReplaceTop(c, NeighboursOf(c, face, contacts_[face].Distance(first_stamp_ + c)));
       }
@@ -154,14 +145,13 @@ class Growth {
       const int o = surface_.Opposite(h);
       if (o < 0) continue;
       const int g = o / 3;
-      if ((*ids_)[g] != kUnassigned) continue;
+      if (!IsFree(g)) continue;
       Contacts& contacts = contacts_[g];
       contacts.chart[o - 3 * g] = stamp;
       contacts.distance[o - 3 * g] = distance + surface_.Step(h);
       const double error = FittingError(proxy, surface_.Normal(g));
       if (!(error < bound_)) continue;
-      entries.entry[entries.count++] = {Cost(error, stamp, g),
-                                        static_cast<std::uint64_t>(g) << kEdgeBits | contacts.With(stamp)};
+      entries.entry[entries.count++] = {Cost(error, stamp, g), g};
     }
     return entries;
   }
@@ -201,16 +191,12 @@ class Growth {
     for (int k = 1; k < entries.count; ++k) queues_[c].Push(entries.entry[k]);
   }
 
-  bool IsStale(int c, std::uint64_t item) const {
-    constexpr std::uint64_t kEdges = (1 << kEdgeBits) - 1;
-    const int face = FaceOf(item);
-    return (*ids_)[face] != kUnassigned || contacts_[face].With(first_stamp_ + c) != (item & kEdges);
-  }
+  bool IsFree(int face) const { return (*ids_)[face] == kUnassigned; }
 
   // From the top of chart c's queue; false when nothing is left.
   bool DropStale(int c) {
     Queue& queue = queues_[c];
-    while (!queue.IsEmpty() && IsStale(c, queue.Top().item)) queue.Pop();
+    while (!queue.IsEmpty() && !IsFree(queue.Top().item)) queue.Pop();
     return !queue.IsEmpty();
   }
 
