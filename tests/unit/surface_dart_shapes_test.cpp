@@ -148,7 +148,7 @@ std::vector<Dart> CutByStretch(const TestSurface& surface, double share_of_stret
   goal.l2_stretch = 1 + share_of_stretch * (flat.l2_stretch - 1);
   goal.linf_stretch = 10;
   goal.longest = patch.Diagonal();
-  const DartedChart chart = CutStretchDarts(patch, &flat, goal, [] {});
+  const DartedChart chart = CutStretchDarts(patch, goal, [] {}, {&flat});
   std::vector<int> edges;
   for (int h : chart.edges) edges.push_back(patch.SurfaceHalfEdge(h));
   before = flat.l2_stretch;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface/known_flattenings.h"
 
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -73,6 +74,38 @@ TEST(KnownFlattenings, OtherFacesAreAnotherChart) {
   ASSERT_NE(known.Find(other), nullptr);
   EXPECT_EQ(known.Find(half)->uv, Flatten(half.mesh).uv);
   EXPECT_EQ(known.Find(whole), nullptr) << "the newer one took its place";
+}
+
+TEST(KnownFlattenings, DartsAreThoseOfAGoal) {
+  const TestSurface surface(shapes::SphericalCap(12, 1.5));
+  const ChartPatch patch = surface.WholePatch();
+  DartGoal goal;
+  goal.l2_stretch = 1.01;
+  goal.linf_stretch = std::numeric_limits<double>::infinity();
+  goal.longest = patch.Diagonal();
+  const DartedChart darted = CutStretchDarts(patch, goal, [] {});
+  ASSERT_LE(darted.flat.l2_stretch, goal.l2_stretch);
+  KnownFlattenings known;
+  EXPECT_EQ(known.Of(patch, goal).mean_darts, nullptr);
+  known.AddDarts(patch, goal, darted);
+  const DartedChart* const found = known.Of(patch, goal).mean_darts;
+  ASSERT_NE(found, nullptr);
+  EXPECT_EQ(found->edges, darted.edges);
+  EXPECT_EQ(known.Of(CutOpen(patch, darted.edges), goal).mean_darts, nullptr) << "another chart";
+  for (double DartGoal::*figure : {&DartGoal::l2_stretch, &DartGoal::longest}) {
+    DartGoal other = goal;
+    other.*figure *= 1.001;
+    EXPECT_EQ(known.Of(patch, other).mean_darts, nullptr);
+  }
+  DartGoal fewer = goal;
+  fewer.most_darts = goal.most_darts - 1;
+  EXPECT_EQ(known.Of(patch, fewer).mean_darts, nullptr) << "it may not have come to the same";
+
+  DartGoal strict = goal;
+  strict.l2_stretch = 1;
+  KnownFlattenings unreached;
+  unreached.AddDarts(patch, strict, darted);
+  EXPECT_EQ(unreached.Of(patch, strict).mean_darts, nullptr);
 }
 
 }  // namespace

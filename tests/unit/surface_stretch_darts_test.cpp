@@ -38,7 +38,7 @@ bool Overlaps(const DartedChart& chart) { return OverlapsItself(chart.flat.uv, c
 TEST(StretchDarts, AConeGetsOneToItsApex) {
   const TestSurface surface(shapes::OpenCone(24));
   const ChartPatch patch = surface.WholePatch();
-  const DartedChart chart = CutStretchDarts(patch, nullptr, Goal(1.01, 1.3, patch.Diagonal()), [] {});
+  const DartedChart chart = CutStretchDarts(patch, Goal(1.01, 1.3, patch.Diagonal()), [] {});
   ASSERT_TRUE(chart.flat.ok);
   EXPECT_EQ(chart.count, 1);
   EXPECT_NEAR(chart.flat.l2_stretch, 1, 1e-6);
@@ -64,7 +64,7 @@ TEST(StretchDarts, ABoxWithoutLidGetsOneToEachCorner) {
   mesh.faces = faces;
   const TestSurface surface(mesh);
   const ChartPatch patch = surface.WholePatch();
-  const DartedChart chart = CutStretchDarts(patch, nullptr, Goal(1.01, 1.3, patch.Diagonal()), [] {});
+  const DartedChart chart = CutStretchDarts(patch, Goal(1.01, 1.3, patch.Diagonal()), [] {});
   EXPECT_EQ(chart.count, 4);
   EXPECT_NEAR(Length(patch, chart.edges) / surface.Scale(), 4, 1e-9) << "the upright edges";
   EXPECT_NEAR(chart.flat.l2_stretch, 1, 1e-6);
@@ -75,7 +75,7 @@ TEST(StretchDarts, ACapGetsFlatterByEach) {
   const TestSurface surface(shapes::SphericalCap(12, 1.5));
   const ChartPatch patch = surface.WholePatch();
   const Flattening before = Flatten(patch.mesh);
-  const DartedChart chart = CutStretchDarts(patch, nullptr, Goal(1.01, 1.3, patch.Diagonal()), [] {});
+  const DartedChart chart = CutStretchDarts(patch, Goal(1.01, 1.3, patch.Diagonal()), [] {});
   ASSERT_TRUE(chart.flat.ok);
   EXPECT_GE(chart.count, 1);
   EXPECT_LT(chart.flat.l2_stretch, before.l2_stretch);
@@ -92,9 +92,9 @@ TEST(StretchDarts, ReachTheirGoalAndStop) {
   const double infinite = std::numeric_limits<double>::infinity();
   const double flat = Flatten(patch.mesh).l2_stretch;
   ASSERT_GT(flat, 1.001);
-  EXPECT_EQ(CutStretchDarts(patch, nullptr, Goal(flat + 1e-6, infinite, patch.Diagonal()), [] {}).count, 0);
+  EXPECT_EQ(CutStretchDarts(patch, Goal(flat + 1e-6, infinite, patch.Diagonal()), [] {}).count, 0);
   const double goal = 1 + (flat - 1) / 2;
-  const DartedChart chart = CutStretchDarts(patch, nullptr, Goal(goal, infinite, patch.Diagonal()), [] {});
+  const DartedChart chart = CutStretchDarts(patch, Goal(goal, infinite, patch.Diagonal()), [] {});
   EXPECT_GE(chart.count, 1);
   EXPECT_LE(chart.flat.l2_stretch, goal);
 }
@@ -109,7 +109,7 @@ TEST(StretchDarts, OneThatDoesNotHelpIsTakenBack) {
   // A dart's length is dear: no fall of the Linf stretch is worth it.
   DartGoal goal = Goal(flat.l2_stretch + 1e-6, 1, patch.Diagonal());
   goal.unit = 1e-9;
-  const DartedChart chart = CutStretchDarts(patch, nullptr, goal, [] {});
+  const DartedChart chart = CutStretchDarts(patch, goal, [] {});
   EXPECT_EQ(chart.count, 0);
   EXPECT_TRUE(chart.edges.empty());
   EXPECT_EQ(chart.patch.opposite, patch.opposite);
@@ -117,13 +117,13 @@ TEST(StretchDarts, OneThatDoesNotHelpIsTakenBack) {
             Flatten(patch.mesh, {FlattenMethod::kStretchMinimizing, true, goal.l2_stretch}).uv);
   // Length costs nothing.
   goal.unit = 1e9;
-  EXPECT_GE(CutStretchDarts(patch, nullptr, goal, [] {}).count, 1);
+  EXPECT_GE(CutStretchDarts(patch, goal, [] {}).count, 1);
 }
 
 TEST(StretchDarts, FlatChartsGetNone) {
   for (const SurfaceData& mesh : {shapes::Grid(8, 8), shapes::Disk(6), shapes::PlaneWithHole(12)}) {
     const ChartPatch patch = TestSurface(mesh).WholePatch();
-    const DartedChart chart = CutStretchDarts(patch, nullptr, Goal(1.01, 1.3, patch.Diagonal()), [] {});
+    const DartedChart chart = CutStretchDarts(patch, Goal(1.01, 1.3, patch.Diagonal()), [] {});
     EXPECT_EQ(chart.count, 0);
     EXPECT_NEAR(chart.flat.l2_stretch, 1, 1e-6);
   }
@@ -135,7 +135,7 @@ TEST(StretchDarts, AreNoLongerThanAllowed) {
   int most = 0;
   for (double share : {0.0, 0.1, 0.25, 0.6}) {
     const double longest = share * patch.Diagonal();
-    const DartedChart chart = CutStretchDarts(patch, nullptr, Goal(1, 1.01, longest), [] {});
+    const DartedChart chart = CutStretchDarts(patch, Goal(1, 1.01, longest), [] {});
     EXPECT_LE(Length(patch, chart.edges), chart.count * longest * (1 + 1e-12)) << share;
     if (share == 0) {
       EXPECT_EQ(chart.count, 0);
@@ -153,10 +153,10 @@ TEST(StretchDarts, WhatReachesTheMeanReachesItWithTheFinishToo) {
     const ChartIds ids = surface.Paint([&](const auto& p) { return some(p) ? 0 : 1; });
     const ChartPatch patch = surface.Patch(ids, SeamMask(surface->FaceCount(), 0), 0);
     const DartedChart mean =
-        CutStretchDarts(patch, nullptr, Goal(1.01, std::numeric_limits<double>::infinity(), 10), [] {});
+        CutStretchDarts(patch, Goal(1.01, std::numeric_limits<double>::infinity(), 10), [] {});
     if (!mean.flat.ok || mean.count == 0 || mean.flat.l2_stretch > 1.01) return;
     ++reached;
-    EXPECT_LE(CutStretchDarts(patch, nullptr, Goal(1.01, 1.3, 10), [] {}).flat.l2_stretch, 1.01);
+    EXPECT_LE(CutStretchDarts(patch, Goal(1.01, 1.3, 10), [] {}).flat.l2_stretch, 1.01);
   };
   for (double height : {-0.2, 0.0, 0.2})
     check(TestSurface(shapes::Sphere(12)), [=](const auto& p) { return p[2] > height; });
@@ -175,8 +175,39 @@ TEST(StretchDarts, AKnownFlatteningIsTaken) {
   FlattenOptions options;
   options.l2_bound = goal.l2_stretch;
   const Flattening known = Flatten(patch.mesh, options);
-  const DartedChart a = CutStretchDarts(patch, nullptr, goal, [] {}),
-                    b = CutStretchDarts(patch, &known, goal, [] {});
+  const DartedChart a = CutStretchDarts(patch, goal, [] {}),
+                    b = CutStretchDarts(patch, goal, [] {}, {&known});
+  EXPECT_EQ(a.edges, b.edges);
+  EXPECT_EQ(a.flat.uv, b.flat.uv);
+}
+
+TEST(StretchDarts, KnownDartsForTheMeanChangeNothing) {
+  const TestSurface surface(shapes::SphericalCap(12, 1.5));
+  const ChartPatch patch = surface.WholePatch();
+  const DartGoal goal = Goal(1.01, 1.3, patch.Diagonal());
+  DartGoal mean = goal;
+  mean.linf_stretch = std::numeric_limits<double>::infinity();
+  const DartedChart darted = CutStretchDarts(patch, mean, [] {});
+  ASSERT_GE(darted.count, 1);
+  ASSERT_LE(darted.flat.l2_stretch, goal.l2_stretch);
+  const DartedChart a = CutStretchDarts(patch, goal, [] {}),
+                    b = CutStretchDarts(patch, goal, [] {}, {nullptr, &darted});
+  EXPECT_GE(a.count, darted.count);
+  EXPECT_EQ(a.edges, b.edges);
+  EXPECT_EQ(a.flat.uv, b.flat.uv);
+}
+
+TEST(StretchDarts, CoarserChartsOfALargeOneServeAgain) {
+  const TestSurface surface(shapes::SphericalCap(90, 1.2));
+  const ChartPatch patch = surface.WholePatch();
+  ASSERT_TRUE(IsLargeChart(patch.mesh));
+  const DartGoal usual = Goal(1.02, 1.3, patch.Diagonal()), strict = Goal(1.005, 1.2, patch.Diagonal());
+  const DartedChart first = CutStretchDarts(patch, usual, [] {});
+  ASSERT_EQ(first.count, 0) << "so the coarser charts are those of the patch";
+  ASSERT_NE(first.coarser, nullptr);
+  const DartedChart a = CutStretchDarts(patch, strict, [] {}),
+                    b = CutStretchDarts(patch, strict, [] {}, {nullptr, nullptr, first.coarser});
+  EXPECT_GE(a.count, 1);
   EXPECT_EQ(a.edges, b.edges);
   EXPECT_EQ(a.flat.uv, b.flat.uv);
 }

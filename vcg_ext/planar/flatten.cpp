@@ -124,7 +124,8 @@ Flattening FlattenConformal(const NormalizedChart& normalized, RestShapes shapes
 }
 
 // A large chart with the least stretch. Not ok and without a reason when that has to be done otherwise.
-Flattening FlattenLarge(const NormalizedChart& normalized, const FlattenOptions& options, const Poll& poll) {
+Flattening FlattenLarge(const ChartMesh& whole, const NormalizedChart& normalized,
+                        const FlattenOptions& options, const Poll& poll) {
   Flattening coarse;
   RestShapes shapes = RestShapesOf(normalized.mesh);
   const auto flatten = [&](const ChartMesh& chart) {
@@ -133,7 +134,9 @@ Flattening FlattenLarge(const NormalizedChart& normalized, const FlattenOptions&
     coarse = Flatten(chart, of_coarse, poll);
     return coarse.uv;
   };
-  std::optional<PlanePoints> uv = MapFromCoarser(normalized.mesh, options.coarser, flatten, poll, shapes);
+  std::optional<CoarserCharts> made;
+  CoarserCharts& coarser = options.coarser ? *options.coarser : made.emplace(whole);
+  std::optional<PlanePoints> uv = MapFromCoarser(normalized.mesh, coarser, flatten, poll, shapes);
   if (!uv) return Failure(coarse.why);
   const Triangles& triangles = normalized.mesh.triangles;
   const VertexSweeps sweeps(static_cast<int>(uv->size()), triangles, shapes);
@@ -154,7 +157,7 @@ Flattening Flatten(const ChartMesh& chart, const FlattenOptions& options, const 
   if (!(normalized.scale > 0)) return FlattenWithoutArea(chart, normalized.extent);
   if (poll) poll();
   if (options.method == FlattenMethod::kStretchMinimizing && IsLargeChart(chart)) {
-    Flattening large = FlattenLarge(normalized, options, poll);
+    Flattening large = FlattenLarge(chart, normalized, options, poll);
     if (large.ok || !large.why.empty()) return large;
   }
 

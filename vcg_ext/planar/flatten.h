@@ -10,15 +10,15 @@
 
 namespace dcharts {
 
-class CoarseChart;
+class CoarserCharts;
 
 struct FlattenOptions {
   FlattenMethod method = FlattenMethod::kStretchMinimizing;
   bool linf_finish = true;  ///< lower the worst stretch after the mean stretch; not of conformal maps
   /// Lowering the worst stretch doesn't lift the L2 stretch of a chart that is within this above it; >= 1.
   double l2_bound = std::numeric_limits<double>::infinity();
-  /// CoarserChart of the chart normalized, where it has been made; may be null.
-  const CoarseChart* coarser = nullptr;
+  /// Of a large chart, where there are some; may be null.
+  CoarserCharts* coarser = nullptr;
 };
 
 struct Flattening {

@@ -268,12 +268,15 @@ std::optional<PlanePoints> ApartFrom(const ChartMesh& normalized, PlanePoints ma
 }
 
 // No rows when there is none.
-Points2 FlatApart(const ChartMesh& chart, double gap, ApartMapFor use, const std::function<void()>& poll) {
+Points2 FlatApart(const ChartMesh& chart, double gap, ApartMapFor use, const std::function<void()>& poll,
+                  CoarserCharts* known = nullptr) {
   const NormalizedChart normalized = Normalized(chart);
   if (IsLargeChart(chart)) {
     RestShapes shapes = RestShapesOf(normalized.mesh);
     const auto flatten = [&](const ChartMesh& coarse) { return FlatApart(coarse, gap, use, poll); };
-    const std::optional<PlanePoints> map = MapFromCoarser(normalized.mesh, nullptr, flatten, poll, shapes);
+    std::optional<CoarserCharts> made;
+    CoarserCharts& coarser = known ? *known : made.emplace(chart);
+    const std::optional<PlanePoints> map = MapFromCoarser(normalized.mesh, coarser, flatten, poll, shapes);
     return map ? ToPoints(*map, normalized.scale) : Points2();
   }
   const TrialFlattening flat = TrialFlatten(chart, {}, poll);
@@ -284,9 +287,10 @@ Points2 FlatApart(const ChartMesh& chart, double gap, ApartMapFor use, const std
 
 // A map continued from one of a coarser chart, whose parts are farther apart. `normalized`: of `chart`.
 std::optional<PlanePoints> ApartFromCoarser(const ChartMesh& chart, const ChartMesh& normalized,
-                                            ApartMapFor use, const std::function<void()>& poll) {
+                                            ApartMapFor use, const std::function<void()>& poll,
+                                            CoarserCharts* coarser) {
   constexpr double kWideGap = 0.3;
-  const Points2 uv = FlatApart(chart, kWideGap, use, poll);
+  const Points2 uv = FlatApart(chart, kWideGap, use, poll, coarser);
   if (uv.rows() == 0 || OverlapsItself(uv, chart.triangles, poll)) return std::nullopt;
   RestShapes shapes = RestShapesOf(normalized);
   PlanePoints map = ToPlanePoints(uv);
@@ -298,11 +302,11 @@ std::optional<PlanePoints> ApartFromCoarser(const ChartMesh& chart, const ChartM
 }  // namespace
 
 std::optional<ApartMap> LayApart(const ChartMesh& chart, const Points2& uv, double l2_bound, ApartMapFor use,
-                                 const std::function<void()>& poll) {
+                                 const std::function<void()>& poll, CoarserCharts* coarser) {
   const NormalizedChart normalized = Normalized(chart);
   if (!(normalized.scale > 0)) return std::nullopt;
   std::optional<PlanePoints> map = IsLargeChart(chart)
-                                       ? ApartFromCoarser(chart, normalized.mesh, use, poll)
+                                       ? ApartFromCoarser(chart, normalized.mesh, use, poll, coarser)
                                        : ApartFrom(normalized.mesh, ToPlanePoints(uv), kGap, use, poll);
   if (!map) return std::nullopt;
   const StretchFigures figures = MeasureStretch(normalized.mesh, ToPoints(*map, 1.0));

@@ -5,30 +5,18 @@
 
 namespace dcharts {
 
-bool IsLargeChart(const ChartMesh& chart) {
-  constexpr int kManyTriangles = 30000;
-  return chart.triangles.rows() > kManyTriangles;
-}
-
-CoarseChart CoarserChart(const ChartMesh& chart, const std::function<void()>& poll) {
-  constexpr int kCoarser = 4;  // times fewer triangles
-  return CoarseChart(chart, static_cast<int>(chart.triangles.rows()) / kCoarser, poll);
-}
-
-std::optional<PlanePoints> MapFromCoarser(const ChartMesh& chart, const CoarseChart* known,
+std::optional<PlanePoints> MapFromCoarser(const ChartMesh& normalized, CoarserCharts& coarser,
                                           const std::function<Points2(const ChartMesh&)>& flatten,
                                           const std::function<void()>& poll, RestShapes& shapes) {
   if (poll) poll();
-  std::optional<CoarseChart> made;
-  if (!known) made.emplace(CoarserChart(chart, poll));
-  const CoarseChart& coarse = known ? *known : *made;
-  if (2 * coarse.Mesh().triangles.rows() > chart.triangles.rows()) return std::nullopt;
-  const Points2 flat = flatten(coarse.Mesh());
+  const CoarseChart& quarter = coarser.Quarter(poll);
+  if (2 * quarter.Mesh().triangles.rows() > normalized.triangles.rows()) return std::nullopt;
+  const Points2 flat = flatten(quarter.Mesh());
   if (flat.rows() == 0) return std::nullopt;
-  std::optional<PlanePoints> uv = coarse.Continued(flat, poll);
+  std::optional<PlanePoints> uv = quarter.Continued(flat, poll);
   if (!uv) return std::nullopt;
-  RelaxSlivers(chart.triangles, *uv, shapes);
-  VertexSweeps(static_cast<int>(uv->size()), chart.triangles, shapes).EvenOut(poll, *uv);
+  RelaxSlivers(normalized.triangles, *uv, shapes);
+  VertexSweeps(static_cast<int>(uv->size()), normalized.triangles, shapes).EvenOut(poll, *uv);
   return uv;
 }
 

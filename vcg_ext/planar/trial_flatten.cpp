@@ -114,8 +114,9 @@ TrialFlattening TrialFlatten(const ChartMesh& chart, const TrialOptions& options
       coarse = TrialFlatten(mesh, of_coarse, poll);
       return coarse.ok ? coarse.uv : Points2();
     };
-    const std::optional<PlanePoints> uv =
-        MapFromCoarser(normalized.mesh, options.coarser, flatten, poll, shapes);
+    std::optional<CoarserCharts> made;
+    CoarserCharts& coarser = options.coarser ? *options.coarser : made.emplace(chart);
+    const std::optional<PlanePoints> uv = MapFromCoarser(normalized.mesh, coarser, flatten, poll, shapes);
     if (uv) return Judged(Measured(normalized, shapes, *uv), options, rim);
     if (coarse.rejected || coarse.overlaps > 0 || !coarse.why.empty()) return coarse;
   }

@@ -9,7 +9,7 @@
 
 namespace dcharts {
 
-class CoarseChart;
+class CoarserCharts;
 
 struct TrialOptions {
   /// Asked is whether the chart's L2 stretch is at most this. The trial ends as soon as it is sure to stay
@@ -25,8 +25,8 @@ struct TrialOptions {
   /// UVs to start from, #V by 2 in any scale, for instance those the chart had before a dart was cut into it.
   /// Ignored when a triangle is flipped in them. May be null.
   const Points2* start = nullptr;
-  /// CoarserChart of the chart normalized, where it has been made; may be null.
-  const CoarseChart* coarser = nullptr;
+  /// Of a large chart, where there are some; may be null.
+  CoarserCharts* coarser = nullptr;
 };
 
 /// With no_overlap: a map whose rim overlaps in so many pairs of triangles stays so, whatever is done to it.

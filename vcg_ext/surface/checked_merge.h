@@ -292,8 +292,8 @@ class CheckedMerger {
   // Its parts can be drawn apart, which must not crumple it.
   bool ComesApart(const DartedChart& chart, double l2_bound) {
     constexpr double kWorstStretch = 1.8;
-    const auto apart =
-        LayApart(chart.patch.mesh, chart.flat.uv, l2_bound, ApartMapFor::kAtlas, groups_.Poll());
+    const auto apart = LayApart(chart.patch.mesh, chart.flat.uv, l2_bound, ApartMapFor::kAtlas,
+                                groups_.Poll(), chart.coarser.get());
     return apart && apart->linf_stretch <= kWorstStretch;
   }
 
@@ -313,7 +313,7 @@ class CheckedMerger {
       goal.most_darts = effort == Effort::kMost ? kManyDarts : kFewDarts;
       goal.longest = groups_.params.max_dart_percent / 100 * open.Diagonal();
       // No bound on the length here: Cut has none and is to find the same darts.
-      DartedChart darted = CutStretchDarts(open, nullptr, goal, groups_.Poll());
+      DartedChart darted = CutStretchDarts(open, goal, groups_.Poll());
       for (int h : darted.edges) cut_length += open.Length(h);
       constexpr double kRounding = 1e-6;  // darts to the corners of a box may be just as long as its rim
       if (cut_length > (1 + kRounding) * longest) return false;

@@ -73,7 +73,8 @@ class ChartCutter {
       const ChartPatch patch = extractor.Extract(faces);
       DartGoal goal = GoalOf(patch, halfway);
       goal.may_give_up = false;
-      DartedChart darted = CutStretchDarts(patch, known.Find(patch), goal, [this] { progress_.Poll(); });
+      DartedChart darted =
+          CutStretchDarts(patch, goal, [this] { progress_.Poll(); }, known.Of(patch, goal));
       if (!darted.flat.ok || darted.count == 0 || darted.flat.l2_stretch >= before) {
         ++failures;
         continue;
@@ -81,7 +82,7 @@ class ChartCutter {
       excess += patch.Area() * (darted.flat.l2_stretch - before);
       count += darted.count;
       Mark(darted.patch, darted.edges, seams);
-      known.Add(darted.patch, std::move(darted.flat));
+      known.Add(darted.patch, std::move(darted.flat), std::move(darted.coarser));
     }
     return count;
   }
@@ -146,14 +147,13 @@ class ChartCutter {
       std::vector<DartedChart> charts;
       PatchExtractor<MeshType> extractor(surface_, seams);
       for (const auto& faces : FacesOfCharts(ids))
-        if (!done[faces.front()]) charts.push_back({{}, 0, {}, extractor.Extract(faces), {}});
+        if (!done[faces.front()]) charts.push_back({{}, 0, {}, extractor.Extract(faces), {}, nullptr});
       ParallelForLargestFirst(
           static_cast<int>(charts.size()), progress_, [&](int k) { return charts[k].patch.faces.size(); },
           [&](int k, const std::function<void()>& poll) {
             const ChartPatch& patch = charts[k].patch;
             const DartGoal goal = GoalOf(patch, bound);
-            charts[k] =
-                CutStretchDarts(patch, known.Find(patch), goal, poll, known.FindDarts(patch, goal));
+            charts[k] = CutStretchDarts(patch, goal, poll, known.Of(patch, goal));
           });
       int next_id = ChartCount(ids);
       for (DartedChart& chart : charts) {
@@ -175,7 +175,7 @@ class ChartCutter {
         above += !good;
         count += chart.count;
         Mark(chart.patch, chart.edges, seams);
-        if (chart.flat.ok) known.Add(chart.patch, std::move(chart.flat));
+        if (chart.flat.ok) known.Add(chart.patch, std::move(chart.flat), std::move(chart.coarser));
       }
       if (again) {
         SplitAndCompact(surface_, ids, &seams);

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "planar/coarser_charts.h"
 #include "planar/flatten.h"
 #include "surface/chart_patch.h"
 #include "surface/stretch_darts.h"
@@ -16,12 +18,21 @@ namespace dcharts {
 /// depends on the chart alone.
 class KnownFlattenings {
  public:
-  void Add(const ChartPatch& patch, Flattening flat) {
-    flat_[patch.faces.front()] = {patch.faces, patch.opposite, std::move(flat)};
+  void Add(const ChartPatch& patch, Flattening flat, std::shared_ptr<CoarserCharts> coarser = nullptr) {
+    flat_[patch.faces.front()] = {patch.faces, patch.opposite, {std::move(flat), std::move(coarser)}};
   }
 
   /// Null when this very chart, cut in the same way, isn't known.
-  const Flattening* Find(const ChartPatch& patch) const { return FindIn(flat_, patch); }
+  const Flattening* Find(const ChartPatch& patch) const {
+    const auto* const found = FindIn(flat_, patch);
+    return found ? &found->first : nullptr;
+  }
+
+  /// Of a large chart that was flattened; may be null.
+  std::shared_ptr<CoarserCharts> FindCoarser(const ChartPatch& patch) const {
+    const auto* const found = FindIn(flat_, patch);
+    return found ? found->second : nullptr;
+  }
 
   /// What CutStretchDarts made of `patch` by a goal without a bound on the worst stretch. Kept when that was
   /// reached.
@@ -30,12 +41,9 @@ class KnownFlattenings {
       darts_[patch.faces.front()] = {patch.faces, patch.opposite, {goal, std::move(darted)}};
   }
 
-  /// Null when darts for the mean stretch of this very chart aren't known by a goal like `goal`.
-  const DartedChart* FindDarts(const ChartPatch& patch, const DartGoal& goal) const {
-    const GoalAndDarts* const found = FindIn(darts_, patch);
-    const bool is_like = found && found->first.l2_stretch == goal.l2_stretch &&
-                         found->first.longest == goal.longest && found->first.most_darts <= goal.most_darts;
-    return is_like ? &found->second : nullptr;
+  /// All that is known of a chart that is to be cut by `goal`.
+  KnownOfChart Of(const ChartPatch& patch, const DartGoal& goal) const {
+    return {Find(patch), FindDarts(patch, goal), FindCoarser(patch)};
   }
 
  private:
@@ -57,7 +65,15 @@ class KnownFlattenings {
     return &found->second.value;
   }
 
-  ByFirstFace<Flattening> flat_;
+  // Null when darts for the mean stretch of this very chart aren't known by a goal like `goal`.
+  const DartedChart* FindDarts(const ChartPatch& patch, const DartGoal& goal) const {
+    const GoalAndDarts* const found = FindIn(darts_, patch);
+    const bool is_like = found && found->first.l2_stretch == goal.l2_stretch &&
+                         found->first.longest == goal.longest && found->first.most_darts <= goal.most_darts;
+    return is_like ? &found->second : nullptr;
+  }
+
+  ByFirstFace<std::pair<Flattening, std::shared_ptr<CoarserCharts>>> flat_;
   ByFirstFace<GoalAndDarts> darts_;
 };
 

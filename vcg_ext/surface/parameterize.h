@@ -153,8 +153,8 @@ class Parameterizer {
 
   // Where that is enough, nothing has to be cut off.
   void DrawApart(Piece& piece, const std::function<void()>& poll) const {
-    std::optional<ApartMap> apart =
-        LayApart(piece.patch.mesh, piece.uv, params_.StretchBound(), ApartMapFor::kAtlas, poll);
+    std::optional<ApartMap> apart = LayApart(piece.patch.mesh, piece.uv, params_.StretchBound(),
+                                             ApartMapFor::kAtlas, poll, known_.FindCoarser(piece.patch).get());
     if (!apart && !IsLargeChart(piece.patch.mesh)) {  // from the map that Merge has tried
       const TrialFlattening flat = TrialFlatten(piece.patch.mesh, {}, poll);
       if (flat.ok)

@@ -11,6 +11,7 @@
 #include "common/parallel.h"
 #include "common/params.h"
 #include "common/progress.h"
+#include "planar/coarser_charts.h"
 #include "planar/lay_apart.h"
 #include "planar/overlap.h"
 #include "planar/trial_flatten.h"
@@ -144,10 +145,12 @@ class BorderRefiner {
         options.start = &start;
       }
       chart.patch = std::move(patch);
+      std::optional<CoarserCharts> coarser;
+      if (IsLargeChart(chart.patch.mesh)) options.coarser = &coarser.emplace(chart.patch.mesh);
       TrialFlattening flat = TrialFlatten(chart.patch.mesh, options, poll);
       chart.good = flat.ok && (may_exceed || flat.l2_stretch <= bound);
       if (chart.good && OverlapsItself(flat.uv, chart.patch.mesh.triangles))
-        chart.good = params_.target_charts == 0 && DrawApart(chart.patch.mesh, bound, poll, flat);
+        chart.good = params_.target_charts == 0 && DrawApart(chart.patch.mesh, bound, options.coarser, poll, flat);
       chart.cost = flat.energy * chart.patch.Area() / surface_.TotalArea() + SeamCost(cut_length);
       chart.stretch = flat.l2_stretch;
       chart.uv = std::move(flat.uv);
@@ -156,9 +159,9 @@ class BorderRefiner {
   }
 
   // As Merge may have done it.
-  static bool DrawApart(const ChartMesh& mesh, double bound, const std::function<void()>& poll,
-                        TrialFlattening& flat) {
-    std::optional<ApartMap> apart = LayApart(mesh, flat.uv, bound, ApartMapFor::kMeasuring, poll);
+  static bool DrawApart(const ChartMesh& mesh, double bound, CoarserCharts* coarser,
+                        const std::function<void()>& poll, TrialFlattening& flat) {
+    std::optional<ApartMap> apart = LayApart(mesh, flat.uv, bound, ApartMapFor::kMeasuring, poll, coarser);
     if (!apart) return false;
     flat.uv = std::move(apart->uv);
     flat.l2_stretch = apart->l2_stretch;

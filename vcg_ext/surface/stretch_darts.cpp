@@ -12,11 +12,9 @@
 #include "common/parallel.h"
 #include "common/pi.h"
 #include "common/threads.h"
-#include "planar/coarse_chart.h"
+#include "planar/coarser_charts.h"
 #include "planar/distortion.h"
 #include "planar/lay_apart.h"
-#include "planar/map_from_coarser.h"
-#include "planar/normalized_chart.h"
 #include "planar/overlap.h"
 #include "planar/trial_flatten.h"
 #include "surface/carried_map.h"
@@ -78,7 +76,7 @@ bool HasFinish(const DartGoal& goal) { return std::isfinite(goal.linf_stretch); 
 
 // As the atlas will have it. `coarser`: see FlattenOptions.
 Flattening FlatWithFinish(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
-                          const CoarseChart* coarser = nullptr) {
+                          CoarserCharts* coarser = nullptr) {
   FlattenOptions options;
   options.coarser = coarser;
   options.l2_bound = std::max(goal.l2_stretch, goal.l2_bound);
@@ -87,7 +85,7 @@ Flattening FlatWithFinish(const ChartPatch& patch, const DartGoal& goal, const s
 
 // The quick way, without the finish; `start` may be null.
 Flattening FlatWithoutFinish(const ChartPatch& patch, const Points2* start, const std::function<void()>& poll,
-                             const CoarseChart* coarser = nullptr) {
+                             CoarserCharts* coarser = nullptr) {
   TrialOptions options;
   options.coarser = coarser;
   options.start = start;
@@ -102,7 +100,7 @@ Flattening FlatWithoutFinish(const ChartPatch& patch, const Points2* start, cons
 }
 
 Flattening FlatAsAsked(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
-                       const CoarseChart* coarser = nullptr) {
+                       CoarserCharts* coarser = nullptr) {
   return HasFinish(goal) ? FlatWithFinish(patch, goal, poll, coarser)
                          : FlatWithoutFinish(patch, nullptr, poll, coarser);
 }
@@ -350,8 +348,8 @@ class DartSearch {
 
 // Of a chart that laps over itself a little.
 bool DrawApart(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart) {
-  std::optional<ApartMap> apart =
-      LayApart(chart.patch.mesh, chart.flat.uv, goal.l2_stretch, ApartMapFor::kAtlas, poll);
+  std::optional<ApartMap> apart = LayApart(chart.patch.mesh, chart.flat.uv, goal.l2_stretch,
+                                           ApartMapFor::kAtlas, poll, chart.coarser.get());
   if (!apart) return false;
   chart.flat.uv = std::move(apart->uv);
   chart.flat.l2_stretch = apart->l2_stretch;
@@ -382,36 +380,33 @@ bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, 
   return chart.flat.l2_stretch <= goal.l2_stretch;
 }
 
+// The chart of `coarser` on which darts are looked for, as a patch of the surface. `source`: of its vertices.
+ChartPatch PatchForTrials(const ChartPatch& patch, CoarserCharts& coarser, const std::function<void()>& poll,
+                          std::vector<int>& source) {
+  const CoarseChart &few = coarser.ForTrials(poll), &quarter = coarser.Quarter(poll);
+  ChartPatch small;
+  small.mesh = few.Mesh();
+  small.opposite = few.Opposite();
+  for (int f : few.SourceFaces()) small.faces.push_back(quarter.SourceFaces()[f]);
+  source.clear();
+  for (int v : few.SourceVertices()) source.push_back(quarter.SourceVertices()[v]);
+  for (int v = 0; v < small.VertexCount(); ++v)
+    small.mesh.positions.row(v) = patch.mesh.positions.row(source[v]);
+  return small;
+}
+
 // A large chart gets the darts that a coarser one gets: each to the same vertex, along the shortest way there
 // is here. A chart without them when they don't serve here.
-DartedChart CutLargeChart(const ChartPatch& patch, const Flattening* known, const DartGoal& goal,
-                          const std::function<void()>& poll) {
-  constexpr int kEnoughFaces = 8000;
-  constexpr size_t kVeryManyFaces = 120000;
+DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
+                          const KnownOfChart& known) {
   constexpr double kHopeless = 1.2;  // of the goal's L2 - 1
+  const std::shared_ptr<CoarserCharts> coarser =
+      known.coarser ? known.coarser : std::make_shared<CoarserCharts>(patch.mesh);
   DartedChart chart = Uncut(patch);
-  // Of a very large chart, half of the way to the coarser one is that which flattening it without darts goes.
-  NormalizedChart normalized;
-  std::optional<CoarseChart> between;
-  if (patch.faces.size() > kVeryManyFaces) {
-    normalized = Normalized(patch.mesh);
-    between.emplace(CoarserChart(normalized.mesh, poll));
-  }
-  const CoarseChart* const coarser = between ? &*between : nullptr;
-  const CoarseChart coarse(coarser ? coarser->Mesh() : patch.mesh, kEnoughFaces, poll);
-  if (!IsLargeChart(coarse.Mesh())) {
-    ChartPatch small;
-    small.faces = coarse.SourceFaces();
-    small.mesh = coarse.Mesh();
-    small.opposite = coarse.Opposite();
-    std::vector<int> source = coarse.SourceVertices();
-    if (coarser) {
-      for (int& f : small.faces) f = coarser->SourceFaces()[f];
-      for (int& v : source) v = coarser->SourceVertices()[v];
-      for (int v = 0; v < small.VertexCount(); ++v)
-        small.mesh.positions.row(v) = patch.mesh.positions.row(source[v]);
-    }
-    const DartedChart darted = CutStretchDarts(small, nullptr, goal, poll);
+  std::vector<int> source;
+  const ChartPatch small = PatchForTrials(patch, *coarser, poll, source);
+  if (!IsLargeChart(small.mesh)) {
+    const DartedChart darted = CutStretchDarts(small, goal, poll);
     if (goal.may_give_up && !(darted.flat.l2_stretch - 1 <= kHopeless * (goal.l2_stretch - 1))) {
       chart.flat.why = "A coarser chart is stretched too much.";
       return chart;
@@ -421,37 +416,38 @@ DartedChart CutLargeChart(const ChartPatch& patch, const Flattening* known, cons
     for (int tip : darted.tips) {
       PatchPaths paths(chart.patch);
       paths.Run(paths.BoundaryVertices(), true);
-      chart.tips.push_back(corner_at[source[coarse.Mesh().triangles(tip / 3, tip % 3)]]);
+      chart.tips.push_back(corner_at[source[small.Vertex(tip)]]);
       const std::vector<int> cut = paths.Path(chart.patch.Vertex(chart.tips.back()));
       chart.edges.insert(chart.edges.end(), cut.begin(), cut.end());
       chart.count += !cut.empty();
       chart.patch = CutOpen(chart.patch, cut);
     }
   }
-  if (known && chart.count == 0)
-    chart.flat = *known;
-  else
-    chart.flat = FlatAsAsked(chart.patch, goal, poll, chart.count == 0 ? coarser : nullptr);
-  if (chart.count == 0 || (chart.flat.ok && !Overlaps(chart))) return chart;
-  chart = Uncut(patch);
-  chart.flat = known ? *known : FlatAsAsked(patch, goal, poll, coarser);
+  if (chart.count > 0) {
+    chart.coarser = std::make_shared<CoarserCharts>(chart.patch.mesh);
+    chart.flat = FlatAsAsked(chart.patch, goal, poll, chart.coarser.get());
+    if (chart.flat.ok && !Overlaps(chart)) return chart;
+    chart = Uncut(patch);
+  }
+  chart.coarser = coarser;
+  chart.flat = known.flat ? *known.flat : FlatAsAsked(patch, goal, poll, coarser.get());
   return chart;
 }
 
 }  // namespace
 
-DartedChart CutStretchDarts(const ChartPatch& patch, const Flattening* known, const DartGoal& goal,
-                            const std::function<void()>& poll, const DartedChart* mean_darts) {
-  if (IsLargeChart(patch.mesh)) return CutLargeChart(patch, known, goal, poll);
+DartedChart CutStretchDarts(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
+                            const KnownOfChart& known) {
+  if (IsLargeChart(patch.mesh)) return CutLargeChart(patch, goal, poll, known);
   DartedChart chart = Uncut(patch);
   // A chart that is known to need them need not be flattened without.
-  if (mean_darts && HasFinish(goal) && ConePoints(patch, PatchPaths(patch)).empty() &&
-      CutForMeanStretch(goal, poll, *mean_darts, chart)) {
+  if (known.mean_darts && HasFinish(goal) && ConePoints(patch, PatchPaths(patch)).empty() &&
+      CutForMeanStretch(goal, poll, *known.mean_darts, chart)) {
     DartSearch(goal, poll, chart).Run();
     return chart;
   }
   chart = Uncut(patch);
-  chart.flat = known ? *known : FlatAsAsked(patch, goal, poll);
+  chart.flat = known.flat ? *known.flat : FlatAsAsked(patch, goal, poll);
   if (!chart.flat.ok || CutConePoints(goal, poll, chart)) return chart;
   if (HasFinish(goal) && chart.flat.l2_stretch > goal.l2_stretch &&
       !CutForMeanStretch(goal, poll, CutForMeanStretchAlone(goal, poll, patch), chart))

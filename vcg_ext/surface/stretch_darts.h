@@ -2,8 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
+#include "planar/coarser_charts.h"
 #include "planar/flatten.h"
 #include "surface/chart_patch.h"
 
@@ -30,16 +32,24 @@ struct DartedChart {
   std::vector<int> tips;   ///< of each cut, a half-edge of the patch that starts where it ends; in order
   ChartPatch patch;        ///< cut open
   Flattening flat;         ///< of `patch`
+  std::shared_ptr<CoarserCharts> coarser;  ///< those of `patch`, when it is a large chart
+};
+
+/// What is known of a chart before darts are looked for: it saves time and changes nothing. All may be null.
+struct KnownOfChart {
+  const Flattening* flat = nullptr;  ///< by the same goal
+  /// What CutStretchDarts makes of the chart by the same goal without a bound on the Linf stretch, where it
+  /// reaches that.
+  const DartedChart* mean_darts = nullptr;
+  std::shared_ptr<CoarserCharts> coarser{};
 };
 
 /// Darts by measured stretch: flattens the chart, cuts from the border to the place that is stretched most,
 /// and flattens it again, until the goal is reached (without the finish that lowers the worst stretch when
 /// that is no part of the goal). A dart that doesn't help, or makes the chart overlap itself, is taken back.
 /// A chart that is developable but for some points gets a dart to each of these. The patch must be one that
-/// can be flattened. `known` is its flattening by the same goal, or null; `mean_darts`, where they are known,
-/// what this makes of the patch by the same goal without a bound on the Linf stretch, which was reached; they
-/// save time and change nothing. `poll` may throw to stop the work.
-DartedChart CutStretchDarts(const ChartPatch& patch, const Flattening* known, const DartGoal& goal,
-                            const std::function<void()>& poll, const DartedChart* mean_darts = nullptr);
+/// can be flattened. `poll` may throw to stop the work.
+DartedChart CutStretchDarts(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
+                            const KnownOfChart& known = {});
 
 }  // namespace dcharts

@@ -92,7 +92,7 @@ class ImageJoiner {
       for (int side : {h, surface_.Opposite(h)}) ClearSeam(seams, side);
     const ChartPatch patch = PatchExtractor<SurfaceMesh>(surface_, seams).Extract(faces);
     if (!IsOpen(patch)) return {};
-    const DartedChart darted = CutStretchDarts(patch, nullptr, DartGoalOf(patch), poll);
+    const DartedChart darted = CutStretchDarts(patch, DartGoalOf(patch), poll);
     if (!darted.flat.ok) return {};
     for (const std::vector<int>& darts : SymmetricDarts(patch, darted.edges)) {
       SeamMask cut = seams;

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "planar/chart_mesh.h"
+#include "planar/coarse_chart.h"
+#include "planar/normalized_chart.h"
+
+namespace dcharts {
+
+/// Whether a chart is so large that its map is better continued from that of a coarser chart: linear solves
+/// take more than linear time.
+bool IsLargeChart(const ChartMesh& chart);
+
+/// The coarser charts of a large chart, each made when it is first asked for: coarsening takes most of the
+/// time that a large chart does, and several steps have a use for them. Not for two threads at once.
+class CoarserCharts {
+ public:
+  /// A copy is taken of the chart.
+  explicit CoarserCharts(const ChartMesh& chart) : normalized_(Normalized(chart)) {}
+  CoarserCharts(const CoarserCharts&) = delete;
+
+  /// A quarter of the chart's triangles; of the chart normalized. `poll` may throw.
+  const CoarseChart& Quarter(const std::function<void()>& poll);
+  /// Few enough triangles for many trials; of the mesh of Quarter().
+  const CoarseChart& ForTrials(const std::function<void()>& poll);
+
+ private:
+  const NormalizedChart normalized_;
+  std::optional<CoarseChart> quarter_, for_trials_;
+};
+
+}  // namespace dcharts
