@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planar/coarser_charts.h"
 
+#include <cstddef>
+#include <utility>
+
 namespace dcharts {
 
 bool IsLargeChart(const ChartMesh& chart) {
@@ -16,10 +19,25 @@ const CoarseChart& CoarserCharts::Quarter(const std::function<void()>& poll) {
   return *quarter_;
 }
 
-const CoarseChart& CoarserCharts::ForTrials(const std::function<void()>& poll) {
-  constexpr int kEnoughFaces = 8000;
-  if (!for_trials_) for_trials_.emplace(Quarter(poll).Mesh(), kEnoughFaces, poll);
-  return *for_trials_;
+CoarserCharts& CoarserCharts::OfQuarter(const std::function<void()>& poll) {
+  if (!of_quarter_) of_quarter_ = std::make_unique<CoarserCharts>(Quarter(poll).Mesh());
+  return *of_quarter_;
+}
+
+const FewTriangles& CoarserCharts::ForTrials(const std::function<void()>& poll) {
+  if (for_trials_) return *for_trials_;
+  const CoarseChart& quarter = Quarter(poll);
+  FewTriangles few;
+  if (IsLargeChart(quarter.Mesh())) {
+    few = OfQuarter(poll).ForTrials(poll);
+  } else {
+    constexpr int kEnoughFaces = 8000;
+    const CoarseChart coarse(quarter.Mesh(), kEnoughFaces, poll);
+    few = {coarse.Mesh(), coarse.Opposite(), coarse.SourceVertices(), coarse.SourceFaces()};
+  }
+  for (int& v : few.source_vertex) v = quarter.SourceVertices()[static_cast<std::size_t>(v)];
+  for (int& f : few.source_face) f = quarter.SourceFaces()[static_cast<std::size_t>(f)];
+  return for_trials_.emplace(std::move(few));
 }
 
 }  // namespace dcharts

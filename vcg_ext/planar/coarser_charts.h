@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "planar/chart_mesh.h"
 #include "planar/coarse_chart.h"
@@ -14,6 +16,13 @@ namespace dcharts {
 /// take more than linear time.
 bool IsLargeChart(const ChartMesh& chart);
 
+/// A chart with few enough triangles for many trials, and what its vertices and faces are of another one.
+struct FewTriangles {
+  ChartMesh mesh;
+  std::vector<int> opposite;                     ///< per half-edge, -1 at a border
+  std::vector<int> source_vertex, source_face;  ///< of the chart
+};
+
 /// The coarser charts of a large chart, each made when it is first asked for: coarsening takes most of the
 /// time that a large chart does, and several steps have a use for them. Not for two threads at once.
 class CoarserCharts {
@@ -24,12 +33,16 @@ class CoarserCharts {
 
   /// A quarter of the chart's triangles; of the chart normalized. `poll` may throw.
   const CoarseChart& Quarter(const std::function<void()>& poll);
-  /// Few enough triangles for many trials; of the mesh of Quarter().
-  const CoarseChart& ForTrials(const std::function<void()>& poll);
+  /// Those of the mesh of Quarter(), which may be large itself.
+  CoarserCharts& OfQuarter(const std::function<void()>& poll);
+  /// From the last quarter of quarters.
+  const FewTriangles& ForTrials(const std::function<void()>& poll);
 
  private:
   const NormalizedChart normalized_;
-  std::optional<CoarseChart> quarter_, for_trials_;
+  std::optional<CoarseChart> quarter_;
+  std::unique_ptr<CoarserCharts> of_quarter_;
+  std::optional<FewTriangles> for_trials_;
 };
 
 }  // namespace dcharts

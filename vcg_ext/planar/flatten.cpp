@@ -127,15 +127,15 @@ Flattening FlattenConformal(const NormalizedChart& normalized, RestShapes shapes
 Flattening FlattenLarge(const ChartMesh& whole, const NormalizedChart& normalized,
                         const FlattenOptions& options, const Poll& poll) {
   Flattening coarse;
+  std::optional<CoarserCharts> made;
+  CoarserCharts& coarser = options.coarser ? *options.coarser : made.emplace(whole);
   RestShapes shapes = RestShapesOf(normalized.mesh);
   const auto flatten = [&](const ChartMesh& chart) {
     FlattenOptions of_coarse = options;
-    of_coarse.coarser = nullptr;
+    of_coarse.coarser = &coarser.OfQuarter(poll);
     coarse = Flatten(chart, of_coarse, poll);
     return coarse.uv;
   };
-  std::optional<CoarserCharts> made;
-  CoarserCharts& coarser = options.coarser ? *options.coarser : made.emplace(whole);
   std::optional<PlanePoints> uv = MapFromCoarser(normalized.mesh, coarser, flatten, poll, shapes);
   if (!uv) return Failure(coarse.why);
   const Triangles& triangles = normalized.mesh.triangles;

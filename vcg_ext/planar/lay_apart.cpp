@@ -273,9 +273,11 @@ Points2 FlatApart(const ChartMesh& chart, double gap, ApartMapFor use, const std
   const NormalizedChart normalized = Normalized(chart);
   if (IsLargeChart(chart)) {
     RestShapes shapes = RestShapesOf(normalized.mesh);
-    const auto flatten = [&](const ChartMesh& coarse) { return FlatApart(coarse, gap, use, poll); };
     std::optional<CoarserCharts> made;
     CoarserCharts& coarser = known ? *known : made.emplace(chart);
+    const auto flatten = [&](const ChartMesh& coarse) {
+      return FlatApart(coarse, gap, use, poll, &coarser.OfQuarter(poll));
+    };
     const std::optional<PlanePoints> map = MapFromCoarser(normalized.mesh, coarser, flatten, poll, shapes);
     return map ? ToPoints(*map, normalized.scale) : Points2();
   }

@@ -55,11 +55,16 @@ class ChartDissolver {
     for (int p : group)
       for (const auto& [q, length] : groups_.parts.Borders(p))
         if (owner_[q] != chart_) borders[owner_[q]] += length;
+    const auto with = [&](int b) { return ChartGroups<MeshType>::Joined(PartsOf(b), group); };
+    std::vector<std::vector<int>> unions;
+    for (const auto& [b, length] : borders)
+      if (std::vector<int> both = with(b); groups_.MayStandTogether(both)) unions.push_back(std::move(both));
+    groups_.TryAll(unions);
     const double own = groups_.AreaOf(group);
     double least = ChartGroups<MeshType>::kNoBound;
     int home = -1;
     for (const auto& [b, length] : borders) {
-      const std::vector<int>&now = PartsOf(b), both = ChartGroups<MeshType>::Joined(now, group);
+      const std::vector<int>&now = PartsOf(b), both = with(b);
       if (!groups_.MayStandTogether(both)) continue;
       const ChartTrial& trial = groups_.Trial(both);
       if (!trial.flat) continue;

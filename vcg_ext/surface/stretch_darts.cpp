@@ -380,21 +380,6 @@ bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, 
   return chart.flat.l2_stretch <= goal.l2_stretch;
 }
 
-// The chart of `coarser` on which darts are looked for, as a patch of the surface. `source`: of its vertices.
-ChartPatch PatchForTrials(const ChartPatch& patch, CoarserCharts& coarser, const std::function<void()>& poll,
-                          std::vector<int>& source) {
-  const CoarseChart &few = coarser.ForTrials(poll), &quarter = coarser.Quarter(poll);
-  ChartPatch small;
-  small.mesh = few.Mesh();
-  small.opposite = few.Opposite();
-  for (int f : few.SourceFaces()) small.faces.push_back(quarter.SourceFaces()[f]);
-  source.clear();
-  for (int v : few.SourceVertices()) source.push_back(quarter.SourceVertices()[v]);
-  for (int v = 0; v < small.VertexCount(); ++v)
-    small.mesh.positions.row(v) = patch.mesh.positions.row(source[v]);
-  return small;
-}
-
 // A large chart gets the darts that a coarser one gets: each to the same vertex, along the shortest way there
 // is here. A chart without them when they don't serve here.
 DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
@@ -403,9 +388,11 @@ DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const s
   const std::shared_ptr<CoarserCharts> coarser =
       known.coarser ? known.coarser : std::make_shared<CoarserCharts>(patch.mesh);
   DartedChart chart = Uncut(patch);
-  std::vector<int> source;
-  const ChartPatch small = PatchForTrials(patch, *coarser, poll, source);
-  if (!IsLargeChart(small.mesh)) {
+  const FewTriangles& few = coarser->ForTrials(poll);
+  if (!IsLargeChart(few.mesh)) {
+    ChartPatch small{few.source_face, few.mesh, few.opposite};
+    for (int v = 0; v < small.VertexCount(); ++v)
+      small.mesh.positions.row(v) = patch.mesh.positions.row(few.source_vertex[v]);
     const DartedChart darted = CutStretchDarts(small, goal, poll);
     if (goal.may_give_up && !(darted.flat.l2_stretch - 1 <= kHopeless * (goal.l2_stretch - 1))) {
       chart.flat.why = "A coarser chart is stretched too much.";
@@ -416,7 +403,7 @@ DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const s
     for (int tip : darted.tips) {
       PatchPaths paths(chart.patch);
       paths.Run(paths.BoundaryVertices(), true);
-      chart.tips.push_back(corner_at[source[small.Vertex(tip)]]);
+      chart.tips.push_back(corner_at[few.source_vertex[small.Vertex(tip)]]);
       const std::vector<int> cut = paths.Path(chart.patch.Vertex(chart.tips.back()));
       chart.edges.insert(chart.edges.end(), cut.begin(), cut.end());
       chart.count += !cut.empty();
