@@ -58,6 +58,7 @@ class ChartCutter {
     double excess = 0;  // of the mean stretch over `halfway`, times the area
     PatchExtractor<MeshType> extractor(surface_, seams);
     for (std::vector<int>& faces : FacesOfCharts(ids)) {
+      progress_.Poll();
       const ChartPatch patch = extractor.Extract(faces);
       const Flattening* flat = known.Find(patch);
       if (!flat) return 0;  // it could not be laid flat
@@ -69,12 +70,13 @@ class ChartCutter {
     constexpr int kMostFailures = 12;
     int count = 0, failures = 0;
     for (size_t k = 0; k < charts.size() && excess > 0 && failures < kMostFailures; ++k) {
+      progress_.Poll();
       const auto& [before, faces] = charts[k];
       const ChartPatch patch = extractor.Extract(faces);
       DartGoal goal = GoalOf(patch, halfway);
       goal.may_give_up = false;
-      DartedChart darted =
-          CutStretchDarts(patch, goal, [this] { progress_.Poll(); }, known.Of(patch, goal));
+      DartedChart darted = CutStretchDarts(
+          patch, goal, [this] { progress_.Poll(); }, known.Of(patch, goal));
       if (!darted.flat.ok || darted.count == 0 || darted.flat.l2_stretch >= before) {
         ++failures;
         continue;
@@ -167,7 +169,7 @@ class ChartCutter {
         }
         if (!good && may_part && faces.size() > 1) {
           const ChartPatch whole = extractor.Extract(faces);
-          PartChart(whole, Bisect(whole), next_id++, ids, seams);
+          PartChart(whole, Bisect(whole, [this] { progress_.Poll(); }), next_id++, ids, seams);
           for (int f : faces) done[f] = 0;
           again = true;
           continue;

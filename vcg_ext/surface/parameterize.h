@@ -153,8 +153,9 @@ class Parameterizer {
 
   // Where that is enough, nothing has to be cut off.
   void DrawApart(Piece& piece, const std::function<void()>& poll) const {
-    std::optional<ApartMap> apart = LayApart(piece.patch.mesh, piece.uv, params_.StretchBound(),
-                                             ApartMapFor::kAtlas, poll, known_.FindCoarser(piece.patch).get());
+    std::optional<ApartMap> apart =
+        LayApart(piece.patch.mesh, piece.uv, params_.StretchBound(), ApartMapFor::kAtlas, poll,
+                 known_.FindCoarser(piece.patch).get());
     if (!apart && !IsLargeChart(piece.patch.mesh)) {  // from the map that Merge has tried
       const TrialFlattening flat = TrialFlatten(piece.patch.mesh, {}, poll);
       if (flat.ok)
@@ -229,7 +230,7 @@ class Parameterizer {
   void Settle(const Piece& piece, ChartIds& ids, SeamMask& seams, int& next_id) {
     const ChartPatch& patch = piece.patch;
     if (piece.flat && IsAboveBound(piece) && patch.faces.size() > 1) {
-      SplitPiece(patch, Bisect(patch), State::kToFlatten, ids, seams, next_id);
+      SplitPiece(patch, Bisect(patch, [this] { progress_.Poll(); }), State::kToFlatten, ids, seams, next_id);
       return;
     }
     if (piece.flat && piece.overlaps.empty()) {
@@ -264,7 +265,7 @@ class Parameterizer {
       state_[patch.faces.front()] = State::kDone;
       return;
     }
-    SplitPiece(patch, Bisect(patch), State::kToFlatten, ids, seams, next_id);
+    SplitPiece(patch, Bisect(patch, [this] { progress_.Poll(); }), State::kToFlatten, ids, seams, next_id);
   }
 
   void SplitPiece(const ChartPatch& patch, const std::vector<int>& side, State next, ChartIds& ids,

@@ -24,19 +24,22 @@ void SplitBadCharts(const SurfaceGraph<MeshType>& surface, double bound, Progres
     std::vector<ChartPatch> patches;
     for (const auto& faces : FacesOfCharts(ids))
       if (!good[faces.front()]) patches.push_back(extractor.Extract(faces));
-    std::vector<char> bad(patches.size(), 0);
+    std::vector<std::vector<int>> sides(patches.size());  // of those that are to be split
     ParallelForLargestFirst(
         static_cast<int>(patches.size()), progress, [&](int k) { return patches[k].faces.size(); },
-        [&](int k, const std::function<void()>& poll) { bad[k] = !TryChart(patches[k], bound, poll).flat; });
+        [&](int k, const std::function<void()>& poll) {
+          if (!TryChart(patches[k], bound, poll).flat && patches[k].faces.size() > 1)
+            sides[k] = Bisect(patches[k], poll);
+        });
     int next_id = ChartCount(ids);
     for (size_t k = 0; k < patches.size(); ++k) {
       const std::vector<int>& faces = patches[k].faces;
-      if (!bad[k] || faces.size() < 2) {
+      if (sides[k].empty()) {
         for (int f : faces) good[f] = 1;
         continue;
       }
       again = true;
-      GiveSideAnId(patches[k], Bisect(patches[k]), next_id++, ids);
+      GiveSideAnId(patches[k], sides[k], next_id++, ids);
     }
     if (again) SplitAndCompact(surface, ids);
   }

@@ -24,7 +24,7 @@ std::vector<int> Sides(int face_count, const std::vector<bool>& first) {
   return side;
 }
 
-std::vector<double> DualDistances(const ChartPatch& patch, int source) {
+std::vector<double> DualDistances(const ChartPatch& patch, int source, const std::function<void()>& poll) {
   std::vector<double> distance(patch.faces.size(), std::numeric_limits<double>::infinity());
   auto centroid = [&](int f) -> Eigen::RowVector3d {
     return (patch.mesh.positions.row(patch.mesh.triangles(f, 0)) +
@@ -36,7 +36,9 @@ std::vector<double> DualDistances(const ChartPatch& patch, int source) {
   std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
   distance[source] = 0;
   queue.push({0, source});
-  while (!queue.empty()) {
+  constexpr int kPollEvery = 65536;
+  for (int step = 0; !queue.empty(); ++step) {
+    if (poll && step % kPollEvery == 0) poll();
     const auto [d, f] = queue.top();
     queue.pop();
     if (d > distance[f]) continue;
@@ -50,6 +52,21 @@ std::vector<double> DualDistances(const ChartPatch& patch, int source) {
     }
   }
   return distance;
+}
+
+// Between two faces, from which these are the distances.
+std::vector<int> Halves(const ChartPatch& patch, int a, int b, const std::vector<double>& from_a,
+                        const std::vector<double>& from_b) {
+  const int face_count = static_cast<int>(patch.faces.size());
+  // Near either end the side is given; the cut is free in the middle band.
+  constexpr double kBand = 0.15;
+  std::vector<int> sources, sinks;
+  for (int f = 0; f < face_count; ++f) {
+    const double total = from_a[f] + from_b[f], difference = from_a[f] - from_b[f];
+    if (f == a || (f != b && difference < -kBand * total)) sources.push_back(f);
+    if (f == b || (f != a && difference > kBand * total)) sinks.push_back(f);
+  }
+  return Sides(face_count, MinCut(face_count, DualEdges(patch), sources, sinks));
 }
 
 }  // namespace
@@ -92,28 +109,19 @@ std::vector<int> SplitAtOverlaps(const ChartPatch& patch, const std::vector<std:
   return Sides(face_count, MinCut(face_count, DualEdges(patch), sources, sinks));
 }
 
-std::vector<int> Bisect(const ChartPatch& patch) {
+std::vector<int> Bisect(const ChartPatch& patch, const std::function<void()>& poll) {
   auto farthest = [](const std::vector<double>& d) {
     return static_cast<int>(std::max_element(d.begin(), d.end()) - d.begin());
   };
-  const int a = farthest(DualDistances(patch, 0));
-  int b = farthest(DualDistances(patch, a));
+  const int a = farthest(DualDistances(patch, 0, poll));
+  const std::vector<double> from_a = DualDistances(patch, a, poll);
+  int b = farthest(from_a);
   if (b == a) b = a == 0 ? 1 : 0;  // faces without any extent
-  return BisectBetween(patch, a, b);
+  return Halves(patch, a, b, from_a, DualDistances(patch, b, poll));
 }
 
 std::vector<int> BisectBetween(const ChartPatch& patch, int a, int b) {
-  const int face_count = static_cast<int>(patch.faces.size());
-  const std::vector<double> from_a = DualDistances(patch, a), from_b = DualDistances(patch, b);
-  // Near either end the side is given; the cut is free in the middle band.
-  constexpr double kBand = 0.15;
-  std::vector<int> sources, sinks;
-  for (int f = 0; f < face_count; ++f) {
-    const double total = from_a[f] + from_b[f], difference = from_a[f] - from_b[f];
-    if (f == a || (f != b && difference < -kBand * total)) sources.push_back(f);
-    if (f == b || (f != a && difference > kBand * total)) sinks.push_back(f);
-  }
-  return Sides(face_count, MinCut(face_count, DualEdges(patch), sources, sinks));
+  return Halves(patch, a, b, DualDistances(patch, a, {}), DualDistances(patch, b, {}));
 }
 
 void GiveSideAnId(const ChartPatch& patch, const std::vector<int>& side, int new_id, ChartIds& ids) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -13,8 +14,9 @@ namespace dcharts {
 /// both occur.
 std::vector<int> SplitAtOverlaps(const ChartPatch& patch, const std::vector<std::pair<int, int>>& overlaps);
 
-/// Parts a chart of two or more faces between two far faces, by the shortest seam about half-way.
-std::vector<int> Bisect(const ChartPatch& patch);
+/// Parts a chart of two or more faces between two far faces, by the shortest seam about half-way. `poll` is
+/// called now and then and may throw.
+std::vector<int> Bisect(const ChartPatch& patch, const std::function<void()>& poll = {});
 
 /// The same between two given faces, `a` on side 0 and `b` on side 1.
 std::vector<int> BisectBetween(const ChartPatch& patch, int a, int b);

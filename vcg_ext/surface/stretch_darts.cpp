@@ -385,6 +385,7 @@ bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, 
 DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
                           const KnownOfChart& known) {
   constexpr double kHopeless = 1.2;  // of the goal's L2 - 1
+  if (poll) poll();
   const std::shared_ptr<CoarserCharts> coarser =
       known.coarser ? known.coarser : std::make_shared<CoarserCharts>(patch.mesh);
   DartedChart chart = Uncut(patch);
@@ -401,6 +402,7 @@ DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const s
     std::vector<int> corner_at(patch.VertexCount());  // that starts at a vertex
     for (int h = 0; h < patch.HalfEdgeCount(); ++h) corner_at[patch.Vertex(h)] = h;
     for (int tip : darted.tips) {
+      if (poll) poll();
       PatchPaths paths(chart.patch);
       paths.Run(paths.BoundaryVertices(), true);
       chart.tips.push_back(corner_at[few.source_vertex[small.Vertex(tip)]]);
@@ -410,6 +412,7 @@ DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const s
       chart.patch = CutOpen(chart.patch, cut);
     }
   }
+  if (poll) poll();
   if (chart.count > 0) {
     chart.coarser = std::make_shared<CoarserCharts>(chart.patch.mesh);
     chart.flat = FlatAsAsked(chart.patch, goal, poll, chart.coarser.get());
