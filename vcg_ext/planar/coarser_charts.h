@@ -19,7 +19,7 @@ bool IsLargeChart(const ChartMesh& chart);
 /// A chart with few enough triangles for many trials, and what its vertices and faces are of another one.
 struct FewTriangles {
   ChartMesh mesh;
-  std::vector<int> opposite;                     ///< per half-edge, -1 at a border
+  std::vector<int> opposite;                    ///< per half-edge, -1 at a border
   std::vector<int> source_vertex, source_face;  ///< of the chart
 };
 

@@ -20,9 +20,9 @@ struct ApartMap {
 
 /// Where a map without flipped triangles laps over itself a little, its parts are drawn apart, and the chart
 /// gives way with the least stretch. `uv`: that map, in any scale; not used of a large chart (IsLargeChart),
-/// whose map is continued from that of a coarser one; `coarser` are its coarser charts, where there are some, or
-/// null. Nothing when they don't come apart in a few rounds or when the L2 stretch would be above `l2_bound`.
-/// `poll` is called now and then and may throw.
+/// whose map is continued from that of a coarser one; `coarser` are its coarser charts, where there are some,
+/// or null. Nothing when they don't come apart in a few rounds or when the L2 stretch would be above
+/// `l2_bound`. `poll` is called now and then and may throw.
 std::optional<ApartMap> LayApart(const ChartMesh& chart, const Points2& uv, double l2_bound, ApartMapFor use,
                                  const std::function<void()>& poll, CoarserCharts* coarser = nullptr);
 

@@ -150,7 +150,8 @@ class BorderRefiner {
       TrialFlattening flat = TrialFlatten(chart.patch.mesh, options, poll);
       chart.good = flat.ok && (may_exceed || flat.l2_stretch <= bound);
       if (chart.good && OverlapsItself(flat.uv, chart.patch.mesh.triangles))
-        chart.good = params_.target_charts == 0 && DrawApart(chart.patch.mesh, bound, options.coarser, poll, flat);
+        chart.good =
+            params_.target_charts == 0 && DrawApart(chart.patch.mesh, bound, options.coarser, poll, flat);
       chart.cost = flat.energy * chart.patch.Area() / surface_.TotalArea() + SeamCost(cut_length);
       chart.stretch = flat.l2_stretch;
       chart.uv = std::move(flat.uv);
