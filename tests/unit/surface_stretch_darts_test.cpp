@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "planar/overlap.h"
+#include "planar/trial_flatten.h"
 #include "surface/patch_paths.h"
 #include "surface_fixture.h"
 
@@ -195,6 +196,25 @@ TEST(StretchDarts, KnownDartsForTheMeanChangeNothing) {
   EXPECT_GE(a.count, darted.count);
   EXPECT_EQ(a.edges, b.edges);
   EXPECT_EQ(a.flat.uv, b.flat.uv);
+}
+
+// The quick map that Merge goes by is above the bound, the atlas's map of the same chart is not.
+TEST(StretchDarts, KnownDartsThatAreNotNeededAreLeft) {
+  const TestSurface surface(shapes::SphericalCap(12, 1.5));
+  const ChartPatch patch = surface.WholePatch();
+  FlattenOptions without_finish;
+  without_finish.linf_finish = false;
+  const double quick = TrialFlatten(patch.mesh).l2_stretch,
+               least = Flatten(patch.mesh, without_finish).l2_stretch;
+  ASSERT_GT(quick, least);
+  DartGoal goal = Goal((quick + least) / 2, 10, patch.Diagonal());
+  DartGoal mean = goal;
+  mean.linf_stretch = std::numeric_limits<double>::infinity();
+  const DartedChart darted = CutStretchDarts(patch, mean, [] {});
+  ASSERT_GE(darted.count, 1);
+  ASSERT_LE(darted.flat.l2_stretch, goal.l2_stretch);
+  ASSERT_EQ(CutStretchDarts(patch, goal, [] {}).count, 0);
+  EXPECT_EQ(CutStretchDarts(patch, goal, [] {}, {nullptr, &darted}).count, 0);
 }
 
 TEST(StretchDarts, CoarserChartsOfALargeOneServeAgain) {

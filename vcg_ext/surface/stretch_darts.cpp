@@ -380,6 +380,16 @@ bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, 
   return chart.flat.l2_stretch <= goal.l2_stretch;
 }
 
+// Whether the chart is above the goal when it is flattened as well as that goes, which a quick map that is
+// above it doesn't tell.
+bool IsAbove(const DartGoal& goal, const std::function<void()>& poll, const ChartPatch& patch) {
+  constexpr double kSurely = 1.02;  // of L2 - 1
+  FlattenOptions options;
+  options.linf_finish = false;
+  const Flattening flat = Flatten(patch.mesh, options, poll);
+  return flat.ok && flat.l2_stretch - 1 > kSurely * (goal.l2_stretch - 1);
+}
+
 // A large chart gets the darts that a coarser one gets: each to the same vertex, along the shortest way there
 // is here. A chart without them when they don't serve here.
 DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
@@ -430,9 +440,9 @@ DartedChart CutStretchDarts(const ChartPatch& patch, const DartGoal& goal, const
                             const KnownOfChart& known) {
   if (IsLargeChart(patch.mesh)) return CutLargeChart(patch, goal, poll, known);
   DartedChart chart = Uncut(patch);
-  // A chart that is known to need them need not be flattened without.
+  // A chart that needs them is not finished without.
   if (known.mean_darts && HasFinish(goal) && ConePoints(patch, PatchPaths(patch)).empty() &&
-      CutForMeanStretch(goal, poll, *known.mean_darts, chart)) {
+      IsAbove(goal, poll, patch) && CutForMeanStretch(goal, poll, *known.mean_darts, chart)) {
     DartSearch(goal, poll, chart).Run();
     return chart;
   }
