@@ -7,9 +7,9 @@
 
 #include "flatten_charts.h"
 #include "planar/coarse_chart.h"
+#include "planar/coarser_charts.h"
 #include "planar/distortion.h"
 #include "planar/flatten.h"
-#include "planar/map_from_coarser.h"
 #include "planar/plane_points.h"
 #include "planar/trial_flatten.h"
 #include "planar/vertex_descent.h"

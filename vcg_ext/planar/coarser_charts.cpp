@@ -20,7 +20,7 @@ const CoarseChart& CoarserCharts::Quarter(const std::function<void()>& poll) {
 }
 
 CoarserCharts& CoarserCharts::OfQuarter(const std::function<void()>& poll) {
-  if (!of_quarter_) of_quarter_ = std::make_unique<CoarserCharts>(Quarter(poll).Mesh());
+  if (!of_quarter_) of_quarter_ = std::make_unique<CoarserCharts>(Normalized(Quarter(poll).Mesh()));
   return *of_quarter_;
 }
 

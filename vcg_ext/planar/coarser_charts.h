@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "planar/chart_mesh.h"
@@ -27,8 +28,7 @@ struct FewTriangles {
 /// time that a large chart does, and several steps have a use for them. Not for two threads at once.
 class CoarserCharts {
  public:
-  /// A copy is taken of the chart.
-  explicit CoarserCharts(const ChartMesh& chart) : normalized_(Normalized(chart)) {}
+  explicit CoarserCharts(NormalizedChart chart) : normalized_(std::move(chart)) {}
   CoarserCharts(const CoarserCharts&) = delete;
 
   /// A quarter of the chart's triangles; of the chart normalized. `poll` may throw.

@@ -124,19 +124,16 @@ Flattening FlattenConformal(const NormalizedChart& normalized, RestShapes shapes
 }
 
 // A large chart with the least stretch. Not ok and without a reason when that has to be done otherwise.
-Flattening FlattenLarge(const ChartMesh& whole, const NormalizedChart& normalized,
-                        const FlattenOptions& options, const Poll& poll) {
+Flattening FlattenLarge(const NormalizedChart& normalized, const FlattenOptions& options, const Poll& poll) {
   Flattening coarse;
-  std::optional<CoarserCharts> made;
-  CoarserCharts& coarser = options.coarser ? *options.coarser : made.emplace(whole);
   RestShapes shapes = RestShapesOf(normalized.mesh);
-  const auto flatten = [&](const ChartMesh& chart) {
+  const auto flatten = [&](const ChartMesh& chart, CoarserCharts* coarser) {
     FlattenOptions of_coarse = options;
-    of_coarse.coarser = &coarser.OfQuarter(poll);
+    of_coarse.coarser = coarser;
     coarse = Flatten(chart, of_coarse, poll);
     return coarse.uv;
   };
-  std::optional<PlanePoints> uv = MapFromCoarser(normalized.mesh, coarser, flatten, poll, shapes);
+  std::optional<PlanePoints> uv = MapFromCoarser(normalized, options.coarser, flatten, poll, shapes);
   if (!uv) return Failure(coarse.why);
   const Triangles& triangles = normalized.mesh.triangles;
   const VertexSweeps sweeps(static_cast<int>(uv->size()), triangles, shapes);
@@ -157,7 +154,7 @@ Flattening Flatten(const ChartMesh& chart, const FlattenOptions& options, const 
   if (!(normalized.scale > 0)) return FlattenWithoutArea(chart, normalized.extent);
   if (poll) poll();
   if (options.method == FlattenMethod::kStretchMinimizing && IsLargeChart(chart)) {
-    Flattening large = FlattenLarge(chart, normalized, options, poll);
+    Flattening large = FlattenLarge(normalized, options, poll);
     if (large.ok || !large.why.empty()) return large;
   }
 

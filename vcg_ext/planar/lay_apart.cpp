@@ -269,16 +269,14 @@ std::optional<PlanePoints> ApartFrom(const ChartMesh& normalized, PlanePoints ma
 
 // No rows when there is none.
 Points2 FlatApart(const ChartMesh& chart, double gap, ApartMapFor use, const std::function<void()>& poll,
-                  CoarserCharts* known = nullptr) {
+                  CoarserCharts* known) {
   const NormalizedChart normalized = Normalized(chart);
   if (IsLargeChart(chart)) {
     RestShapes shapes = RestShapesOf(normalized.mesh);
-    std::optional<CoarserCharts> made;
-    CoarserCharts& coarser = known ? *known : made.emplace(chart);
-    const auto flatten = [&](const ChartMesh& coarse) {
-      return FlatApart(coarse, gap, use, poll, &coarser.OfQuarter(poll));
+    const auto flatten = [&](const ChartMesh& coarse, CoarserCharts* coarser) {
+      return FlatApart(coarse, gap, use, poll, coarser);
     };
-    const std::optional<PlanePoints> map = MapFromCoarser(normalized.mesh, coarser, flatten, poll, shapes);
+    const std::optional<PlanePoints> map = MapFromCoarser(normalized, known, flatten, poll, shapes);
     return map ? ToPoints(*map, normalized.scale) : Points2();
   }
   const TrialFlattening flat = TrialFlatten(chart, {}, poll);

@@ -5,18 +5,22 @@
 
 namespace dcharts {
 
-std::optional<PlanePoints> MapFromCoarser(const ChartMesh& normalized, CoarserCharts& coarser,
-                                          const std::function<Points2(const ChartMesh&)>& flatten,
-                                          const std::function<void()>& poll, RestShapes& shapes) {
+std::optional<PlanePoints> MapFromCoarser(const NormalizedChart& chart, CoarserCharts* known,
+                                          const FlattenCoarser& flatten, const std::function<void()>& poll,
+                                          RestShapes& shapes) {
   if (poll) poll();
+  std::optional<CoarserCharts> made;
+  CoarserCharts& coarser = known ? *known : made.emplace(chart);
   const CoarseChart& quarter = coarser.Quarter(poll);
-  if (2 * quarter.Mesh().triangles.rows() > normalized.triangles.rows()) return std::nullopt;
-  const Points2 flat = flatten(quarter.Mesh());
+  const Triangles& triangles = chart.mesh.triangles;
+  if (2 * quarter.Mesh().triangles.rows() > triangles.rows()) return std::nullopt;
+  const Points2 flat =
+      flatten(quarter.Mesh(), IsLargeChart(quarter.Mesh()) ? &coarser.OfQuarter(poll) : nullptr);
   if (flat.rows() == 0) return std::nullopt;
   std::optional<PlanePoints> uv = quarter.Continued(flat, poll);
   if (!uv) return std::nullopt;
-  RelaxSlivers(normalized.triangles, *uv, shapes);
-  VertexSweeps(static_cast<int>(uv->size()), normalized.triangles, shapes).EvenOut(poll, *uv);
+  RelaxSlivers(triangles, *uv, shapes);
+  VertexSweeps(static_cast<int>(uv->size()), triangles, shapes).EvenOut(poll, *uv);
   return uv;
 }
 

@@ -106,17 +106,15 @@ TrialFlattening TrialFlatten(const ChartMesh& chart, const TrialOptions& options
   if (IsLargeChart(chart)) {
     if (const std::optional<PlanePoints> uv = NearStart(normalized.mesh, options.start, poll, shapes))
       return Judged(Measured(normalized, shapes, *uv), options, rim);
-    std::optional<CoarserCharts> made;
-    CoarserCharts& coarser = options.coarser ? *options.coarser : made.emplace(chart);
     TrialFlattening coarse;
-    const auto flatten = [&](const ChartMesh& mesh) {
+    const auto flatten = [&](const ChartMesh& mesh, CoarserCharts* coarser) {
       TrialOptions of_coarse = options;
       of_coarse.start = nullptr;
-      of_coarse.coarser = &coarser.OfQuarter(poll);
+      of_coarse.coarser = coarser;
       coarse = TrialFlatten(mesh, of_coarse, poll);
       return coarse.ok ? coarse.uv : Points2();
     };
-    const std::optional<PlanePoints> uv = MapFromCoarser(normalized.mesh, coarser, flatten, poll, shapes);
+    const std::optional<PlanePoints> uv = MapFromCoarser(normalized, options.coarser, flatten, poll, shapes);
     if (uv) return Judged(Measured(normalized, shapes, *uv), options, rim);
     if (coarse.rejected || coarse.overlaps > 0 || !coarse.why.empty()) return coarse;
   }

@@ -13,6 +13,7 @@
 #include "common/progress.h"
 #include "planar/coarser_charts.h"
 #include "planar/lay_apart.h"
+#include "planar/normalized_chart.h"
 #include "planar/overlap.h"
 #include "planar/trial_flatten.h"
 #include "surface/border_graph_cut.h"
@@ -146,7 +147,7 @@ class BorderRefiner {
       }
       chart.patch = std::move(patch);
       std::optional<CoarserCharts> coarser;
-      if (IsLargeChart(chart.patch.mesh)) options.coarser = &coarser.emplace(chart.patch.mesh);
+      if (IsLargeChart(chart.patch.mesh)) options.coarser = &coarser.emplace(Normalized(chart.patch.mesh));
       TrialFlattening flat = TrialFlatten(chart.patch.mesh, options, poll);
       chart.good = flat.ok && (may_exceed || flat.l2_stretch <= bound);
       if (chart.good && OverlapsItself(flat.uv, chart.patch.mesh.triangles))

@@ -15,6 +15,7 @@
 #include "planar/coarser_charts.h"
 #include "planar/distortion.h"
 #include "planar/lay_apart.h"
+#include "planar/normalized_chart.h"
 #include "planar/overlap.h"
 #include "planar/trial_flatten.h"
 #include "surface/carried_map.h"
@@ -397,7 +398,7 @@ DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const s
   constexpr double kHopeless = 1.2;  // of the goal's L2 - 1
   if (poll) poll();
   const std::shared_ptr<CoarserCharts> coarser =
-      known.coarser ? known.coarser : std::make_shared<CoarserCharts>(patch.mesh);
+      known.coarser ? known.coarser : std::make_shared<CoarserCharts>(Normalized(patch.mesh));
   DartedChart chart = Uncut(patch);
   const FewTriangles& few = coarser->ForTrials(poll);
   if (!IsLargeChart(few.mesh)) {
@@ -424,7 +425,7 @@ DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const s
   }
   if (poll) poll();
   if (chart.count > 0) {
-    chart.coarser = std::make_shared<CoarserCharts>(chart.patch.mesh);
+    chart.coarser = std::make_shared<CoarserCharts>(Normalized(chart.patch.mesh));
     chart.flat = FlatAsAsked(chart.patch, goal, poll, chart.coarser.get());
     if (chart.flat.ok && !Overlaps(chart)) return chart;
     chart = Uncut(patch);
