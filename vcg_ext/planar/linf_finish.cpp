@@ -5,9 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "planar/distortion.h"
 #include "planar/line_search.h"
+#include "planar/map_region.h"
 #include "planar/plane_points.h"
 #include "planar/stretch_descent.h"
 
@@ -20,7 +22,10 @@ constexpr int kSteps = 14;
 constexpr int kStepsFarFromFlat = 4;  // for charts that will be cut or split
 constexpr double kFarFromFlat = 0.1;  // L2 - 1
 constexpr int kPatience = 4;          // steps without a gain
-constexpr int kSmoothSteps = 5;       // with the lower exponent, which moves more triangles at a time
+constexpr int kWholeSteps = 2;        // of the whole map; the others are near the worst triangles only
+constexpr int kStepsPerRegion = 5;
+constexpr int kSmoothSteps = 5;  // with the lower exponent, which moves more triangles at a time
+constexpr double kBad = 0.3, kBadWhenSharp = 0.5;  // of the worst contraction
 constexpr int kSmoothExponent = 6;
 constexpr int kSharpExponent = 12;
 constexpr double kReferenceOfWorst = 0.85;  // the tail begins below the worst triangle
@@ -37,54 +42,134 @@ double DearestMean(double worst) {
   return kLeast + (kMost - kLeast) * std::min(std::max(share, 0.0), 1.0);
 }
 
+double ContractionOf(const Triangles& triangles, const RestShapes& shapes, const PlanePoints& uv,
+                     Eigen::Index t) {
+  const RestShape& shape = shapes[static_cast<std::size_t>(t)];
+  if (shape.sliver) return 0;
+  const Complex z0 = uv[static_cast<std::size_t>(triangles(t, 0))];
+  const Complex e1 = uv[static_cast<std::size_t>(triangles(t, 1))] - z0;
+  const Complex e2 = uv[static_cast<std::size_t>(triangles(t, 2))] - z0;
+  return TriangleContraction(shape, e1, e2);
+}
+
 double WorstContraction(const Triangles& triangles, const RestShapes& shapes, const PlanePoints& uv) {
   double worst = 0;
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    const RestShape& shape = shapes[static_cast<std::size_t>(t)];
-    if (shape.sliver) continue;
-    const Complex z0 = uv[static_cast<std::size_t>(triangles(t, 0))];
-    const Complex e1 = uv[static_cast<std::size_t>(triangles(t, 1))] - z0;
-    const Complex e2 = uv[static_cast<std::size_t>(triangles(t, 2))] - z0;
-    worst = std::max(worst, TriangleContraction(shape, e1, e2));
-  }
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+    worst = std::max(worst, ContractionOf(triangles, shapes, uv, t));
   return worst;
 }
+
+// Per vertex, whether it is near a triangle that is contracted by more than `bad` of the worst. All are when
+// those are many.
+std::vector<char> NearTheWorst(const Triangles& triangles, const RestShapes& shapes, const PlanePoints& uv,
+                               double bad) {
+  constexpr int kRings = 3;
+  constexpr std::size_t kFew = 2;  // half of them
+  std::vector<double> contraction(shapes.size());
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+    contraction[static_cast<std::size_t>(t)] = ContractionOf(triangles, shapes, uv, t);
+  const double bound = bad * *std::max_element(contraction.begin(), contraction.end());
+  std::vector<char> near(uv.size(), 0);
+  const auto corner = [&](Eigen::Index t, int i) { return static_cast<std::size_t>(triangles(t, i)); };
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+    if (contraction[static_cast<std::size_t>(t)] > bound)
+      for (int i = 0; i < 3; ++i) near[corner(t, i)] = 1;
+  for (int ring = 0; ring < kRings; ++ring) {
+    const std::vector<char> before = near;
+    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+      if (before[corner(t, 0)] || before[corner(t, 1)] || before[corner(t, 2)])
+        for (int i = 0; i < 3; ++i) near[corner(t, i)] = 1;
+  }
+  const auto count = static_cast<std::size_t>(std::count(near.begin(), near.end(), 1));
+  if (count == 0 || kFew * count > near.size()) near.assign(near.size(), 1);
+  return near;
+}
+
+class Finish {
+ public:
+  Finish(const ChartMesh& chart, double l2_bound, const RestShapes& shapes, VertexBlockSystem& system,
+         const std::function<void()>& poll)
+      : chart_(chart), shapes_(shapes), system_(system), poll_(poll), l2_bound_(l2_bound) {}
+
+  void Run(PlanePoints& uv) {
+    const StretchFigures figures = MeasureStretch(chart_, ToPoints(uv, 1.0));
+    least_mean_ = figures.L2() - 1;
+    bound_ = figures.L2() <= l2_bound_ ? l2_bound_ - 1 : std::numeric_limits<double>::infinity();
+    worst_ = figures.Linf();
+    steps_ = least_mean_ > kFarFromFlat ? kStepsFarFromFlat : kSteps;
+    bool whole = true;
+    while (IsWorthGoingOn()) {
+      std::vector<char> moves(uv.size(), 1);
+      // What is stretched most is so in a few places.
+      if (!whole)
+        moves = NearTheWorst(chart_.triangles, shapes_, uv, step_ < kSmoothSteps ? kBad : kBadWhenSharp);
+      MapRegion region(chart_, shapes_, uv, moves, system_);
+      whole = !LowerIn(region, step_ == 0 ? kWholeSteps : kStepsPerRegion, uv);
+    }
+  }
+
+ private:
+  bool IsWorthGoingOn() const {
+    return step_ < steps_ && steps_without_gain_ < kPatience && worst_ - 1 > kNothingToLower;
+  }
+
+  // By some steps. False when it has come to a standstill that the region may be the cause of.
+  bool LowerIn(MapRegion& region, int steps, PlanePoints& uv) {
+    constexpr int kStandstill = 2;  // steps
+    PlanePoints map = region.Uv();  // goes on where it is, also when it isn't kept
+    PlanePoints kept = map;
+    bool stands = false;
+    for (const int end = step_ + steps; step_ < end && IsWorthGoingOn() && !stands; ++step_) {
+      StretchEnergy tail{Kind::kSanderTail};
+      tail.reference = kReferenceOfWorst * WorstContraction(region.LocalTriangles(), region.Shapes(), map);
+      tail.exponent = step_ < kSmoothSteps ? kSmoothExponent : kSharpExponent;
+      if (!(tail.reference > 0)) {
+        steps_ = 0;
+        break;
+      }
+      Descend(tail, {StepKind::kProjectedNewton, 1, 0, 2}, region.LocalTriangles(), region.Shapes(),
+              region.System(), poll_, map);
+      ++steps_without_gain_;
+      Keep(region, map, kept);
+      stands = !region.IsWhole() && steps_without_gain_ >= kStandstill;
+    }
+    region.Write(kept, uv);
+    return !stands;
+  }
+
+  // What `map` has gained, drawn toward the last one kept where its mean stretch is too high.
+  void Keep(const MapRegion& region, const PlanePoints& map, PlanePoints& kept) {
+    const double dearest = std::min(DearestMean(worst_) * least_mean_, bound_);
+    PlanePoints candidate = map;
+    StretchFigures figures = region.Measure(candidate);
+    for (int blend = 0; blend < kMaxBlends && figures.L2() - 1 > dearest; ++blend) {
+      for (std::size_t v = 0; v < kept.size(); ++v) candidate[v] = 0.5 * (candidate[v] + kept[v]);
+      figures = region.Measure(candidate);
+    }
+    if (figures.L2() - 1 > dearest || !(figures.Linf() < worst_)) return;
+    if (!std::isfinite(MapEnergy({Kind::kSander}, region.LocalTriangles(), region.Shapes(), candidate)))
+      return;
+    if (figures.Linf() - 1 < (1 - kGain) * (worst_ - 1)) steps_without_gain_ = 0;
+    kept = std::move(candidate);
+    worst_ = figures.Linf();
+  }
+
+  const ChartMesh& chart_;
+  const RestShapes& shapes_;
+  VertexBlockSystem& system_;
+  const std::function<void()>& poll_;
+  const double l2_bound_;
+  double least_mean_ = 0, bound_ = 0;  // of L2 - 1
+  double worst_ = 0;
+  int steps_ = 0, step_ = 0, steps_without_gain_ = 0;
+};
 
 }  // namespace
 
 void LowerWorstStretch(const ChartMesh& chart, double l2_bound, RestShapes& shapes, VertexBlockSystem& system,
                        const std::function<void()>& poll, PlanePoints& uv) {
   RelaxSlivers(chart.triangles, uv, shapes);
-  StretchFigures figures = MeasureStretch(chart, ToPoints(uv, 1.0));
-  const double least_mean = figures.L2() - 1;
-  const double bound = figures.L2() <= l2_bound ? l2_bound - 1 : std::numeric_limits<double>::infinity();
-  double worst = figures.Linf();
-  const int steps = least_mean > kFarFromFlat ? kStepsFarFromFlat : kSteps;
-  PlanePoints map = uv;  // goes on where it is, also when it isn't kept
-  int steps_without_gain = 0;
-  for (int step = 0; step < steps && steps_without_gain < kPatience; ++step) {
-    if (!(worst - 1 > kNothingToLower)) return;
-    StretchEnergy tail{Kind::kSanderTail};
-    tail.reference = kReferenceOfWorst * WorstContraction(chart.triangles, shapes, map);
-    tail.exponent = step < kSmoothSteps ? kSmoothExponent : kSharpExponent;
-    if (!(tail.reference > 0)) return;
-    Descend(tail, {StepKind::kProjectedNewton, 1, 0, 2}, chart.triangles, shapes, system, poll, map);
-    ++steps_without_gain;
-
-    // A map with too high a mean stretch is drawn toward the last one kept.
-    const double dearest = std::min(DearestMean(worst) * least_mean, bound);
-    PlanePoints candidate = map;
-    figures = MeasureStretch(chart, ToPoints(candidate, 1.0));
-    for (int blend = 0; blend < kMaxBlends && figures.L2() - 1 > dearest; ++blend) {
-      for (std::size_t v = 0; v < uv.size(); ++v) candidate[v] = 0.5 * (candidate[v] + uv[v]);
-      figures = MeasureStretch(chart, ToPoints(candidate, 1.0));
-    }
-    if (figures.L2() - 1 > dearest || !(figures.Linf() < worst)) continue;
-    if (!std::isfinite(MapEnergy({Kind::kSander}, chart.triangles, shapes, candidate))) continue;
-    if (figures.Linf() - 1 < (1 - kGain) * (worst - 1)) steps_without_gain = 0;
-    uv = std::move(candidate);
-    worst = figures.Linf();
-  }
+  Finish(chart, l2_bound, shapes, system, poll).Run(uv);
 }
 
 }  // namespace dcharts

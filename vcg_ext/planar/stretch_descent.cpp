@@ -12,6 +12,18 @@ constexpr double kRegularization = 1e-8;  // of the mean diagonal: translations 
 constexpr int kMaxRegularizations = 4;    // each 1000 times the one before
 constexpr double kNothingToGain = 1e-20;  // strains of 1e-10, far below what UVs can hold
 
+// The second derivatives by two corners, of the products of whose coefficients only these count.
+Block2 SecondDerivatives(const TriangleDerivatives& d, const Complex& product, const Complex& turned) {
+  const Complex linear((d.m_alpha + d.m_beta) * turned.real() + 2 * Dot(d.cross_linear, product),
+                       (d.m_alpha - d.m_beta) * turned.imag());
+  const Complex sum = d.d_alpha + d.d_beta, difference = d.d_beta - d.d_alpha;
+  const Complex antilinear(sum.real() * product.real() - difference.imag() * product.imag() +
+                               2 * turned.real() * d.cross_antilinear.real(),
+                           sum.imag() * product.real() + difference.real() * product.imag() +
+                               2 * turned.real() * d.cross_antilinear.imag());
+  return BlockOf(linear, antilinear);
+}
+
 // Fills the matrix and returns the gradient.
 PlanePoints Assemble(const StretchEnergy& energy, StepKind step, const Triangles& triangles,
                      const RestShapes& shapes, const PlanePoints& uv, VertexBlockSystem& system) {
@@ -24,19 +36,16 @@ PlanePoints Assemble(const StretchEnergy& energy, StepKind step, const Triangles
     const Complex e1 = uv[corner[1]] - uv[corner[0]], e2 = uv[corner[2]] - uv[corner[0]];
     const TriangleDerivatives d = step == StepKind::kReweighted ? ReweightedDerivatives(shape, e1, e2)
                                                                 : ProjectedDerivatives(energy, shape, e1, e2);
-    // alpha = sum of a_k z_k, beta = sum of conj(a_k) z_k
-    const Complex a[3] = {-shape.a1 - shape.a2, shape.a1, shape.a2};
-    for (int k = 0; k < 3; ++k) {
-      gradient[corner[k]] += ConjMul(a[k], d.gradient_alpha) + Mul(a[k], d.gradient_beta);
-      for (int l = k; l < 3; ++l) {
-        const Complex product = Mul(a[k], a[l]), turned = ConjMul(a[k], a[l]);
-        const Complex linear = d.m_alpha * turned + d.m_beta * std::conj(turned) +
-                               Mul(d.cross_linear, std::conj(product)) + ConjMul(d.cross_linear, product);
-        const Complex antilinear = Mul(d.d_alpha, std::conj(product)) + Mul(d.d_beta, product) +
-                                   2.0 * turned.real() * d.cross_antilinear;
-        system.Add(t, k, l, BlockOf(linear, antilinear));
-      }
-    }
+    // alpha = a1 e1 + a2 e2, beta = conj(a1) e1 + conj(a2) e2
+    const Complex &a1 = shape.a1, &a2 = shape.a2;
+    const Complex by_e1 = ConjMul(a1, d.gradient_alpha) + Mul(a1, d.gradient_beta);
+    const Complex by_e2 = ConjMul(a2, d.gradient_alpha) + Mul(a2, d.gradient_beta);
+    gradient[corner[0]] -= by_e1 + by_e2;
+    gradient[corner[1]] += by_e1;
+    gradient[corner[2]] += by_e2;
+    system.AddTriangle(t, SecondDerivatives(d, Mul(a1, a1), ConjMul(a1, a1)),
+                       SecondDerivatives(d, Mul(a1, a2), ConjMul(a1, a2)),
+                       SecondDerivatives(d, Mul(a2, a2), ConjMul(a2, a2)));
   }
   return gradient;
 }

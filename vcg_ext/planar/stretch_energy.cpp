@@ -21,8 +21,8 @@ LinearMap MapOf(const RestShape& shape, const Complex& e1, const Complex& e2) {
   const Complex beta = ConjMul(shape.a1, e1) + ConjMul(shape.a2, e2);
   map.p = std::sqrt(std::norm(alpha));
   map.q = std::sqrt(std::norm(beta));
-  map.alpha_way = map.p > 0 ? alpha / map.p : Complex(1, 0);
-  map.beta_way = map.q > 0 ? beta / map.q : Complex(1, 0);
+  map.alpha_way = map.p > 0 ? alpha * (1 / map.p) : Complex(1, 0);
+  map.beta_way = map.q > 0 ? beta * (1 / map.q) : Complex(1, 0);
   map.s1 = map.p + map.q;
   map.s2 = Cross(e1, e2) / (shape.twice_area * map.s1);
   return map;

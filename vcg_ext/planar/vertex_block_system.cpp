@@ -4,7 +4,7 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
-#include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace dcharts {
@@ -14,91 +14,120 @@ constexpr int kEdgeCorners[3][2] = {{0, 1}, {0, 2}, {1, 2}};
 
 std::size_t At(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
-// The edges of a triangulation as the blocks above the diagonal of a matrix, column by column.
-struct UpperPattern {
-  std::vector<int> start, row;  // as in BlockMatrix
-  std::vector<int> of_edge;     // per triangle its corners 01, 02, 12: where in `row`
+// The edges of a triangulation, each once.
+struct Edges {
+  std::vector<int> ends[2];  // the lower vertex, the higher
+  std::vector<int>
+      of_triangle;  // per triangle its corners 01, 02, 12: which edge; -1 where an end isn't free
 };
 
-// `place`: the row and column of each vertex.
-UpperPattern PatternOf(const Triangles& triangles, const std::vector<int>& place) {
-  const std::size_t count = place.size(), edge_count = At(triangles.rows()) * 3;
-  std::vector<int> low(edge_count), high(edge_count);
-  std::vector<int> end_of_row(count + 1, 0), end_of_column(count + 1, 0);
+// Sorted by the higher vertex, then by the lower. `free_count`: vertices below it are free.
+Edges EdgesOf(int free_count, const Triangles& triangles) {
+  // An edge with an end that isn't free is put into a column beyond the last.
+  const std::size_t count = At(free_count), slot_count = At(triangles.rows()) * 3;
+  std::vector<int> low(slot_count), high(slot_count);
+  std::vector<int> end_of_row(count + 2, 0), end_of_column(count + 2, 0);
   std::size_t e = 0;
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    const int at[3] = {place[At(triangles(t, 0))], place[At(triangles(t, 1))], place[At(triangles(t, 2))]};
     for (const auto& edge : kEdgeCorners) {
-      low[e] = std::min(at[edge[0]], at[edge[1]]);
-      high[e] = std::max(at[edge[0]], at[edge[1]]);
+      const auto [least, largest] = std::minmax(triangles(t, edge[0]), triangles(t, edge[1]));
+      low[e] = std::min(least, free_count);
+      high[e] = std::min(largest, free_count);
       ++end_of_row[At(low[e]) + 1];
       ++end_of_column[At(high[e]) + 1];
       ++e;
     }
   }
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i <= count; ++i) {
     end_of_row[i + 1] += end_of_row[i];
     end_of_column[i + 1] += end_of_column[i];
   }
-  std::vector<int> by_row(edge_count);
-  for (e = 0; e < edge_count; ++e) by_row[At(end_of_row[At(low[e])]++)] = static_cast<int>(e);
+  std::vector<int> by_row(slot_count);
+  for (e = 0; e < slot_count; ++e) by_row[At(end_of_row[At(low[e])]++)] = static_cast<int>(e);
   // In this order, each column is filled from above; an edge of two triangles comes twice.
   const std::vector<int> begin(end_of_column.begin(), end_of_column.end() - 1);
-  std::vector<int> filled(edge_count);
-  UpperPattern pattern;
-  pattern.of_edge.resize(edge_count);
+  std::vector<int> filled(slot_count);
+  Edges edges;
+  edges.of_triangle.resize(slot_count);
   for (const int k : by_row) {
     const std::size_t column = At(high[At(k)]);
     int& end = end_of_column[column];
     if (end == begin[column] || filled[At(end) - 1] != low[At(k)]) filled[At(end++)] = low[At(k)];
-    pattern.of_edge[At(k)] = end - 1 - begin[column];
+    edges.of_triangle[At(k)] = end - 1 - begin[column];
   }
-  pattern.start.assign(1, 0);
-  pattern.start.reserve(count + 1);
-  for (std::size_t i = 0; i < count; ++i)
-    pattern.start.push_back(pattern.start.back() + end_of_column[i] - begin[i]);
-  pattern.row.resize(At(pattern.start.back()));
-  for (std::size_t i = 0; i < count; ++i)
-    std::copy(filled.begin() + begin[i], filled.begin() + end_of_column[i],
-              pattern.row.begin() + pattern.start[i]);
-  for (e = 0; e < edge_count; ++e) pattern.of_edge[e] += pattern.start[At(high[e])];
-  return pattern;
+  std::vector<int> first(count);  // of each column
+  for (std::size_t i = 0; i < count; ++i) {
+    first[i] = static_cast<int>(edges.ends[0].size());
+    edges.ends[0].insert(edges.ends[0].end(), filled.begin() + begin[i], filled.begin() + end_of_column[i]);
+    edges.ends[1].resize(edges.ends[0].size(), static_cast<int>(i));
+  }
+  for (e = 0; e < slot_count; ++e) {
+    int& edge = edges.of_triangle[e];
+    edge = high[e] < free_count ? edge + first[At(high[e])] : -1;
+  }
+  return edges;
+}
+
+// Puts the edges into the columns of a matrix with the vertices in another order; returns the place in it of
+// each. `place`: the row and column of each vertex.
+std::vector<int> PlaceEdges(const Edges& edges, const std::vector<int>& place, BlockMatrix& matrix,
+                            std::size_t size) {
+  const std::size_t count = edges.ends[0].size();
+  std::vector<int> row(count), column(count), end_of_row(size + 1, 0), by_row(count), at(count);
+  matrix.start.assign(size + 1, 0);
+  for (std::size_t e = 0; e < count; ++e) {
+    std::tie(row[e], column[e]) = std::minmax(place[At(edges.ends[0][e])], place[At(edges.ends[1][e])]);
+    ++end_of_row[At(row[e]) + 1];
+    ++matrix.start[At(column[e]) + 1];
+  }
+  for (std::size_t i = 0; i < size; ++i) {
+    end_of_row[i + 1] += end_of_row[i];
+    matrix.start[i + 1] += matrix.start[i];
+  }
+  for (std::size_t e = 0; e < count; ++e) by_row[At(end_of_row[At(row[e])]++)] = static_cast<int>(e);
+  std::vector<int> end_of_column(matrix.start.begin(), matrix.start.end() - 1);
+  matrix.row.resize(count);
+  for (const int e : by_row) {
+    at[At(e)] = end_of_column[At(column[At(e)])]++;
+    matrix.row[At(at[At(e)])] = row[At(e)];
+  }
+  return at;
 }
 
 // Minimum degree on the vertex graph: the same fill as on the doubled graph at a fraction of its time.
-std::vector<int> FillReducingPlaces(int vertex_count, const Triangles& triangles) {
-  std::vector<int> place(At(vertex_count));
-  std::iota(place.begin(), place.end(), 0);
-  const UpperPattern pattern = PatternOf(triangles, place);
-  Eigen::SparseMatrix<float> graph(vertex_count, vertex_count);
-  graph.reserve(static_cast<Eigen::Index>(pattern.row.size()) + vertex_count);
-  for (int v = 0; v < vertex_count; ++v) {
+std::vector<int> FillReducingPlaces(int vertex_count, int free_count, const Edges& edges) {
+  Eigen::SparseMatrix<float> graph(free_count, free_count);
+  graph.reserve(static_cast<Eigen::Index>(edges.ends[0].size()) + free_count);
+  std::size_t e = 0;
+  for (int v = 0; v < free_count; ++v) {
     graph.startVec(v);
-    for (int p = pattern.start[At(v)]; p < pattern.start[At(v) + 1]; ++p)
-      graph.insertBack(pattern.row[At(p)], v) = 1;
+    for (; e < edges.ends[0].size() && edges.ends[1][e] == v; ++e) graph.insertBack(edges.ends[0][e], v) = 1;
     graph.insertBack(v, v) = 1;  // which the ordering expects to be there
   }
   graph.finalize();
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
   Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Upper>(), order);
-  for (int i = 0; i < vertex_count; ++i) place[At(order.indices()[i])] = i;
+  std::vector<int> place(At(vertex_count), free_count);
+  for (int i = 0; i < free_count; ++i) place[At(order.indices()[i])] = i;
   return place;
 }
 
 }  // namespace
 
-VertexBlockSystem::VertexBlockSystem(int vertex_count, const Triangles& triangles)
+VertexBlockSystem::VertexBlockSystem(int vertex_count, int free_count, const Triangles& triangles)
     : vertex_count_(vertex_count),
+      free_count_(free_count),
       triangles_(triangles),
-      place_(FillReducingPlaces(vertex_count, triangles)),
       edges_(At(triangles.rows()) * 3) {
-  UpperPattern pattern = PatternOf(triangles, place_);
-  matrix_.start = std::move(pattern.start);
-  matrix_.row = std::move(pattern.row);
+  const Edges edges = EdgesOf(free_count, triangles);
+  place_ = FillReducingPlaces(vertex_count, free_count, edges);
+  const std::vector<int> at = PlaceEdges(edges, place_, matrix_, At(free_count));
   std::size_t e = 0;
   for (Eigen::Index t = 0; t < triangles.rows(); ++t)
     for (const auto& edge : kEdgeCorners) {
-      edges_[e] = {pattern.of_edge[e], place_[At(triangles(t, edge[0]))] > place_[At(triangles(t, edge[1]))]};
+      const int k = edges.of_triangle[e];
+      edges_[e] = {k < 0 ? -1 : at[At(k)],
+                   place_[At(triangles(t, edge[0]))] > place_[At(triangles(t, edge[1]))]};
       ++e;
     }
   SetZero();
@@ -107,30 +136,46 @@ VertexBlockSystem::VertexBlockSystem(int vertex_count, const Triangles& triangle
 
 void VertexBlockSystem::SetZero() {
   matrix_.above.assign(matrix_.row.size(), Eigen::Matrix2d::Zero());
-  matrix_.diagonal.assign(At(vertex_count_), Eigen::Matrix2d::Zero());
+  matrix_.diagonal.assign(At(free_count_), Eigen::Matrix2d::Zero());
 }
 
-void VertexBlockSystem::Add(Eigen::Index triangle, int k, int l, const Block2& block) {
-  double* to = nullptr;
-  bool transposed = false;
-  if (k == l) {
-    to = matrix_.diagonal[At(place_[At(triangles_(triangle, k))])].data();
-  } else {
-    const Slot& slot = edges_[At(3 * triangle + k + l - 1)];
-    to = matrix_.above[At(slot.at)].data();
-    transposed = slot.transposed;
-  }
-  to[0] += block.m00;  // column by column
-  to[1] += transposed ? block.m01 : block.m10;
-  to[2] += transposed ? block.m10 : block.m01;
+void VertexBlockSystem::AddTo(const Slot& slot, const Block2& block) {
+  if (slot.at < 0) return;
+  double* const to = matrix_.above[At(slot.at)].data();  // column by column
+  to[0] += block.m00;
+  to[1] += slot.transposed ? block.m01 : block.m10;
+  to[2] += slot.transposed ? block.m10 : block.m01;
   to[3] += block.m11;
 }
 
+void VertexBlockSystem::Add(Eigen::Index triangle, int k, int l, const Block2& block) {
+  if (k == l)
+    AddDiagonal(triangles_(triangle, k), block);
+  else
+    AddTo(edges_[At(3 * triangle + k + l - 1)], block);
+}
+
+void VertexBlockSystem::AddTriangle(Eigen::Index triangle, const Block2& b11, const Block2& b12,
+                                    const Block2& b22) {
+  // Rows of corners 0, and columns, are less those of 1 and 2 together.
+  const Block2 b01{-(b11.m00 + b12.m00), -(b11.m01 + b12.m10), -(b11.m10 + b12.m01), -(b11.m11 + b12.m11)};
+  const Block2 b02{-(b12.m00 + b22.m00), -(b12.m01 + b22.m01), -(b12.m10 + b22.m10), -(b12.m11 + b22.m11)};
+  AddDiagonal(triangles_(triangle, 0),
+              Block2{-(b01.m00 + b02.m00), -(b01.m01 + b02.m01), -(b01.m10 + b02.m10), -(b01.m11 + b02.m11)});
+  AddDiagonal(triangles_(triangle, 1), b11);
+  AddDiagonal(triangles_(triangle, 2), b22);
+  const Slot* const slots = &edges_[At(3 * triangle)];
+  AddTo(slots[0], b01);
+  AddTo(slots[1], b02);
+  AddTo(slots[2], b12);
+}
+
 void VertexBlockSystem::AddDiagonal(Eigen::Index vertex, double value) {
-  matrix_.diagonal[At(place_[At(vertex)])].diagonal().array() += value;
+  if (vertex < free_count_) matrix_.diagonal[At(place_[At(vertex)])].diagonal().array() += value;
 }
 
 void VertexBlockSystem::AddDiagonal(Eigen::Index vertex, const Block2& block) {
+  if (vertex >= free_count_) return;
   Eigen::Matrix2d& to = matrix_.diagonal[At(place_[At(vertex)])];
   to(0, 0) += block.m00;
   to(1, 0) += block.m10;
@@ -140,9 +185,9 @@ void VertexBlockSystem::AddDiagonal(Eigen::Index vertex, const Block2& block) {
 
 void VertexBlockSystem::Regularize(double factor) {
   double sum = 0;
-  for (const int place : place_) sum += matrix_.diagonal[At(place)].trace();
-  const double value = factor * sum / (2.0 * vertex_count_);
-  for (int v = 0; v < vertex_count_; ++v) AddDiagonal(v, value);
+  for (int v = 0; v < free_count_; ++v) sum += matrix_.diagonal[At(place_[At(v)])].trace();
+  const double value = factor * sum / (2.0 * free_count_);
+  for (int v = 0; v < free_count_; ++v) AddDiagonal(v, value);
 }
 
 void VertexBlockSystem::Pin(Eigen::Index vertex, const Complex& value, PlanePoints& right_hand_side) {
@@ -170,13 +215,13 @@ void VertexBlockSystem::Pin(Eigen::Index vertex, const Complex& value, PlanePoin
 bool VertexBlockSystem::Factorize() { return solver_.Factorize(matrix_); }
 
 PlanePoints VertexBlockSystem::Solve(const PlanePoints& right_hand_side) const {
-  std::vector<Eigen::Vector2d> x(At(vertex_count_));
-  for (int v = 0; v < vertex_count_; ++v) {
+  std::vector<Eigen::Vector2d> x(At(free_count_));
+  for (int v = 0; v < free_count_; ++v) {
     x[At(place_[At(v)])] = {right_hand_side[At(v)].real(), right_hand_side[At(v)].imag()};
   }
   solver_.Solve(x);
-  PlanePoints solution(At(vertex_count_));
-  for (int v = 0; v < vertex_count_; ++v)
+  PlanePoints solution(At(vertex_count_), Complex(0, 0));
+  for (int v = 0; v < free_count_; ++v)
     solution[At(v)] = {x[At(place_[At(v)])].x(), x[At(place_[At(v)])].y()};
   return solution;
 }

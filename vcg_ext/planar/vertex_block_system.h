@@ -27,13 +27,21 @@ inline Block2 BlockOf(const Complex& linear, const Complex& antilinear) {
 class VertexBlockSystem {
  public:
   /// `triangles` must use every vertex and no vertex twice in a triangle.
-  VertexBlockSystem(int vertex_count, const Triangles& triangles);
+  VertexBlockSystem(int vertex_count, const Triangles& triangles)
+      : VertexBlockSystem(vertex_count, vertex_count, triangles) {}
+  /// Only the first `free_count` vertices (> 0) are unknowns. The others' blocks and right hand sides count
+  /// nowhere, and they are zero in solutions.
+  VertexBlockSystem(int vertex_count, int free_count, const Triangles& triangles);
 
   void SetZero();
 
   /// Adds the block in row `k` and column `l` (corners of the triangle, k <= l), and for k < l its transpose
   /// in row `l` and column `k`. Diagonal blocks must be symmetric.
   void Add(Eigen::Index triangle, int k, int l, const Block2& block);
+
+  /// Adds what hangs on the edges e1 = z1 - z0 and e2 = z2 - z0 of a triangle alone: `b11`, `b12`, `b22` act
+  /// on e1 and e2.
+  void AddTriangle(Eigen::Index triangle, const Block2& b11, const Block2& b12, const Block2& b22);
 
   /// Adds to the diagonal of one vertex.
   void AddDiagonal(Eigen::Index vertex, double value);
@@ -55,13 +63,15 @@ class VertexBlockSystem {
  private:
   /// Where the block of an edge is.
   struct Slot {
-    int at = 0;
+    int at = 0;  // -1: nowhere, an end isn't free
     bool transposed = false;
   };
 
-  int vertex_count_;
+  void AddTo(const Slot& slot, const Block2& block);
+
+  int vertex_count_, free_count_;
   const Triangles& triangles_;
-  std::vector<int> place_;   // position of a vertex in the fill-reducing order
+  std::vector<int> place_;   // position of a vertex in the fill-reducing order; beyond it when it isn't free
   std::vector<Slot> edges_;  // per triangle: corners 01, 02, 12
   BlockMatrix matrix_;       // in the fill-reducing order
   BlockCholesky solver_;

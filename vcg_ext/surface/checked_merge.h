@@ -37,7 +37,7 @@ class CheckedMerger {
     if (bound < kNoBound) MergeWithDarts(Effort::kUsual);
     if (to_fewest) {
       Dissolve();
-      if (MayBeTooMany() || merges_with_darts_ >= kManyWithDarts) MergeAgain(bound);
+      if (MayBeTooMany() || MayNeedFewerDarts()) MergeAgain(bound);
       if (IsWorthMostEffort()) MergeWithDarts(Effort::kMost);
     }
     if (groups_.params.target_charts > 0 && greedy_.MayMergeMore()) Merge(kNoBound);
@@ -46,11 +46,8 @@ class CheckedMerger {
 
  private:
   static constexpr double kNoBound = ChartGroups<MeshType>::kNoBound;
-  static constexpr int kMany = 8;              // charts
+  static constexpr int kFew = 3, kMany = 8;    // charts
   static constexpr double kWorthTrying = 1.4;  // the L2 stretch without darts
-
-  // With as many merges that needed darts, all is done again: in another order they need not be made.
-  static constexpr int kManyWithDarts = 2;
 
   // With most effort a pair gets more darts, and is drawn apart where it laps over itself.
   enum class Effort { kUsual, kMost };
@@ -76,15 +73,18 @@ class CheckedMerger {
   // small ones, ends of limbs, stay in any order.
   bool MayBeTooMany() const {
     constexpr double kSmall = 0.015;
-    constexpr int kFew = 3, kEnough = 6;
+    constexpr int kEnough = 6;
     int count = 0;
     for (const auto& chart : groups_.charts) count += chart.alive && chart.area > kSmall;
     return count > kFew && count <= kEnough;
   }
 
+  // In another order, merges that needed darts may not be made. Where few charts are left, one that did is
+  // not too many.
+  bool MayNeedFewerDarts() const { return merges_with_darts_ > (groups_.alive <= kFew ? 1 : 0); }
+
   // What each try costs is little beside what one chart of a few is worth.
   bool IsWorthMostEffort() const {
-    constexpr int kFew = 3;
     return groups_.alive > kFew && groups_.alive <= kMany &&
            groups_.params.method == FlattenMethod::kStretchMinimizing;
   }

@@ -218,7 +218,7 @@ class DartSearch {
         if (next >= 0) TryAll(paths, Joined(tips, Tips(paths, stretch, next)));
         hopeless_.swap(now);
       }
-      TryAll(paths, tips);
+      TryThoseThatMayWin(paths, tips);
       if (CutBest(paths, tips)) continue;
       ++failures;
       hopeless_ = hopeless;
@@ -260,11 +260,33 @@ class DartSearch {
     return some;
   }
 
+  double Length(const PatchPaths& paths, int tip) const { return paths.Distance(chart_.patch.Vertex(tip)); }
+
+  // What a dart brings. By its length alone, many small ones would come before the one that does the work.
+  double Gain(double l2_stretch, double length) const {
+    return (chart_.flat.l2_stretch - std::max(l2_stretch, goal_.l2_stretch)) / std::sqrt(length);
+  }
+
+  // Makes the trials that have not been made, the shortest first, but for those that can't win any more.
+  void TryThoseThatMayWin(const PatchPaths& paths, std::vector<int> tips) {
+    std::stable_sort(tips.begin(), tips.end(),
+                     [&](int a, int b) { return Length(paths, a) < Length(paths, b); });
+    double best = -std::numeric_limits<double>::infinity();
+    for (size_t k = 0; k < tips.size();) {
+      std::vector<int> some;
+      for (; k < tips.size() && some.size() <= static_cast<size_t>(FreeThreads()); ++k)
+        if (!(Gain(goal_.l2_stretch, Length(paths, tips[k])) < best)) some.push_back(tips[k]);
+      TryAll(paths, some);
+      for (int tip : some)
+        if (const DartedChart& trial = trials_.at(tip); trial.count > 0)
+          best = std::max(best, Gain(trial.flat.l2_stretch, Length(paths, tip)));
+    }
+  }
+
   // Makes the trials that have not been made.
   void TryAll(const PatchPaths& paths, std::vector<int> tips) {
-    const auto length = [&](int tip) { return paths.Distance(chart_.patch.Vertex(tip)); };
     for (int tip : tips)
-      if (!MayHelp(chart_.flat, length(tip), goal_)) trials_.emplace(tip, DartedChart());
+      if (!MayHelp(chart_.flat, Length(paths, tip), goal_)) trials_.emplace(tip, DartedChart());
     tips.erase(std::remove_if(tips.begin(), tips.end(), [&](int tip) { return trials_.count(tip) > 0; }),
                tips.end());
     if (tips.empty()) return;
@@ -275,21 +297,20 @@ class DartSearch {
     std::vector<DartedChart> made(tips.size());
     InParallel(static_cast<int>(tips.size()), poll_, [&](int k, const std::function<void()>& poll) {
       const int v = chart_.patch.Vertex(tips[k]);
-      if (!Try(tips[k], paths.Path(v), length(tips[k]), poll, made[k])) made[k] = {};
+      if (!Try(tips[k], paths.Path(v), Length(paths, tips[k]), poll, made[k])) made[k] = {};
     });
     for (size_t k = 0; k < tips.size(); ++k) trials_.emplace(tips[k], std::move(made[k]));
   }
 
-  // Cuts the best dart to one of the tips, which have been tried, if any helps.
+  // Cuts the best dart to one of the tips that have been tried, if any helps.
   bool CutBest(const PatchPaths& paths, const std::vector<int>& tips) {
     double best_gain = -1;
     DartedChart best;
     for (int tip : tips) {
-      DartedChart& trial = trials_.at(tip);
-      if (trial.count == 0) continue;
-      // By the length alone, many small ones would come before the one that does the work.
-      const double gain = (chart_.flat.l2_stretch - std::max(trial.flat.l2_stretch, goal_.l2_stretch)) /
-                          std::sqrt(paths.Distance(chart_.patch.Vertex(tip)));
+      const auto found = trials_.find(tip);
+      if (found == trials_.end() || found->second.count == 0) continue;
+      DartedChart& trial = found->second;
+      const double gain = Gain(trial.flat.l2_stretch, Length(paths, tip));
       if (best.count > 0 && gain <= best_gain) continue;
       best_gain = gain;
       best = std::move(trial);
