@@ -43,11 +43,12 @@ Corners AnglesOf(const RestShape& shape) {
   // The gradient of corner k's hat function is normal to the opposite edge, so angles between edges are
   // pi minus angles between gradients, of which a_k are the mirrored halves.
   const Complex a[3] = {-shape.a1 - shape.a2, shape.a1, shape.a2};
-  Corners angles;
-  for (int k = 0; k < 3; ++k) {
+  const auto angle = [&](int k) {
     const Complex &x = a[(k + 1) % 3], &y = a[(k + 2) % 3];
-    angles[At(k)] = kPi - std::atan2(std::abs(Cross(x, y)), Dot(x, y));
-  }
+    return kPi - std::atan2(std::abs(Cross(x, y)), Dot(x, y));
+  };
+  Corners angles{angle(0), angle(1), 0};
+  angles[2] = kPi - angles[0] - angles[1];
   return angles;
 }
 
@@ -204,7 +205,7 @@ bool AngleFlattening::Step(VertexBlockSystem& system) {
     for (std::size_t i = 0; i < 3; ++i) {
       sine[i] = std::sin(angle[i]);
       log_sine[i] = std::log(sine[i]);
-      cotangents[At(t)][i] = 1 / std::tan(angle[i]);
+      cotangents[At(t)][i] = std::cos(angle[i]) / sine[i];
     }
     const Corners d = compliances[At(t)] = Compliance(t, sine);
     const double rest = kPi - angle[0] - angle[1] - angle[2], sum = d[0] + d[1] + d[2];

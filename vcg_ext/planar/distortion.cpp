@@ -25,7 +25,8 @@ TriangleStretch StretchOfTriangle(const Eigen::Matrix3d& corners, const Eigen::M
   const Eigen::Vector3d by_u = (e1 * f2.y() - e2 * f1.y()) / twice_uv_area;
   const Eigen::Vector3d by_v = (e2 * f1.x() - e1 * f2.x()) / twice_uv_area;
   const double a = by_u.squaredNorm(), b = by_u.dot(by_v), c = by_v.squaredNorm();
-  stretch.largest = std::sqrt(0.5 * (a + c + std::hypot(a - c, 2 * b)));
+  // of numbers near 1: std::hypot would take three times as long
+  stretch.largest = std::sqrt(0.5 * (a + c + std::sqrt((a - c) * (a - c) + 4 * b * b)));
   stretch.smallest = stretch.largest > 0 ? twice_area / twice_uv_area / stretch.largest : 0;
   return stretch;
 }

@@ -43,23 +43,27 @@ double MapEnergy(const StretchEnergy& energy, const Triangles& triangles, const 
   return std::isfinite(sum) ? sum : kInfinity;
 }
 
-double FirstFlip(const Triangles& triangles, const PlanePoints& uv, const PlanePoints& direction) {
-  double first = kInfinity;
+double FirstFlip(const Triangles& triangles, const PlanePoints& uv, const PlanePoints& direction,
+                 double up_to) {
+  double first = up_to;
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     const Complex& z0 = Corner(uv, triangles, t, 0);
     const Complex& d0 = Corner(direction, triangles, t, 0);
     const Complex e1 = Corner(uv, triangles, t, 1) - z0, e2 = Corner(uv, triangles, t, 2) - z0;
     const Complex f1 = Corner(direction, triangles, t, 1) - d0, f2 = Corner(direction, triangles, t, 2) - d0;
-    first =
-        std::min(first, SmallestPositiveRoot(Cross(f1, f2), Cross(e1, f2) + Cross(f1, e2), Cross(e1, e2)));
+    const double a = Cross(f1, f2), b = Cross(e1, f2) + Cross(f1, e2), c = Cross(e1, e2);
+    // Most triangles are far from it.
+    if (c + (std::min(b, 0.0) + std::min(a, 0.0) * first) * first > 0) continue;
+    first = std::min(first, SmallestPositiveRoot(a, b, c));
   }
-  return first;
+  return first < up_to ? first : kInfinity;
 }
 
 bool SearchLine(const std::function<double(const PlanePoints&)>& value_of, const Triangles& triangles,
                 const PlanePoints& direction, double slope, double longest_step, PlanePoints& uv,
                 double& value) {
-  double step = std::min(longest_step, kShareOfWayToFlip * FirstFlip(triangles, uv, direction));
+  double step = std::min(longest_step, kShareOfWayToFlip * FirstFlip(triangles, uv, direction,
+                                                                     longest_step / kShareOfWayToFlip));
   PlanePoints trial(uv.size()), best;
   double best_value = value;
   for (int halving = 0; halving < kMaxHalvings; ++halving, step *= 0.5) {

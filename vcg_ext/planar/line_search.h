@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 
 #include "planar/chart_mesh.h"
 #include "planar/complex_plane.h"
@@ -15,8 +16,10 @@ double MapEnergy(const StretchEnergy& energy, const Triangles& triangles, const 
                  const PlanePoints& uv);
 
 /// The smallest t > 0 at which a triangle loses its area on the way from `uv` to uv + t direction
-/// [Smith and Schaefer 2015]; +infinity when none does. All areas in `uv` must be positive.
-double FirstFlip(const Triangles& triangles, const PlanePoints& uv, const PlanePoints& direction);
+/// [Smith and Schaefer 2015]; +infinity when none does before
+/// `up_to`. All areas in `uv` must be positive.
+double FirstFlip(const Triangles& triangles, const PlanePoints& uv, const PlanePoints& direction,
+                 double up_to = std::numeric_limits<double>::infinity());
 
 /// Moves `uv` along `direction`, at most `longest_step` and 0.9 of the way to the first flip, halved until
 /// the energy falls enough (Armijo), and further down to 1 while that lowers it more. `value_of` is the
