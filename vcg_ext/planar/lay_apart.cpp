@@ -192,7 +192,7 @@ class ApartDrawer {
     size_t fewest = most;
     int without_gain = 0;
     for (int round = 0; round <= kRounds && without_gain < kPatience; ++round) {
-      const auto overlapping = OverlappingPairs(OnGrid(ToPoints(map, 1.0), chart_.triangles), most, poll_);
+      const auto overlapping = OverlapsInMap(ToPoints(map, 1.0), chart_.triangles, most, poll_);
       if (overlapping.empty()) return true;
       if (overlapping.size() == most || round == kRounds) return false;
       without_gain = overlapping.size() < fewest ? 0 : without_gain + 1;

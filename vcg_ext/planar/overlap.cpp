@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planar/boundary_loops.h"
+
 namespace dcharts {
 namespace {
 
@@ -128,17 +130,45 @@ std::vector<GridTriangle> OnGrid(const Points2& uv, const Triangles& triangles) 
   const Eigen::RowVector2d low = uv.colwise().minCoeff();
   const double size = (uv.colwise().maxCoeff() - low).maxCoeff();
   const double scale = size > 0 ? kCells / size : 0;
+  std::vector<std::array<std::int32_t, 2>> at(uv.rows());
+  for (Eigen::Index v = 0; v < uv.rows(); ++v)
+    for (int d : {0, 1}) at[v][d] = static_cast<std::int32_t>(std::lround((uv(v, d) - low[d]) * scale));
   std::vector<GridTriangle> grid(triangles.rows());
   for (Eigen::Index f = 0; f < triangles.rows(); ++f)
     for (int i = 0; i < 3; ++i)
-      for (int d : {0, 1})
-        grid[f][2 * i + d] =
-            static_cast<std::int32_t>(std::lround((uv(triangles(f, i), d) - low[d]) * scale));
+      for (int d : {0, 1}) grid[f][2 * i + d] = at[triangles(f, i)][d];
   return grid;
 }
 
+Triangles RimOf(const Triangles& triangles) {
+  const std::vector<std::vector<int>> loops = BoundaryLoops(triangles);
+  if (loops.size() != 1) return triangles;
+  std::vector<int> next(static_cast<size_t>(triangles.maxCoeff()) + 1, -1);
+  for (size_t i = 0; i < loops[0].size(); ++i)
+    next[static_cast<size_t>(loops[0][i])] = loops[0][(i + 1) % loops[0].size()];
+  Triangles rim(triangles.rows(), 3);
+  Eigen::Index count = 0;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (next[static_cast<size_t>(triangles(t, k))] == triangles(t, (k + 1) % 3)) {
+        rim.row(count++) = triangles.row(t);
+        break;
+      }
+  return rim.topRows(count);
+}
+
+std::vector<std::pair<int, int>> OverlapsInMap(const Points2& uv, const Triangles& triangles, size_t limit,
+                                               const std::function<void()>& poll) {
+  const std::vector<GridTriangle> grid = OnGrid(uv, triangles);
+  if (std::all_of(grid.begin(), grid.end(), [](const GridTriangle& t) { return TwiceArea(t) > 0; })) {
+    const Triangles rim = RimOf(triangles);
+    if (rim.rows() < triangles.rows() && OverlappingPairs(OnGrid(uv, rim), 1, poll).empty()) return {};
+  }
+  return OverlappingPairs(grid, limit, poll);
+}
+
 bool OverlapsItself(const Points2& uv, const Triangles& triangles, const std::function<void()>& poll) {
-  return !OverlappingPairs(OnGrid(uv, triangles), 1, poll).empty();
+  return !OverlapsInMap(uv, triangles, 1, poll).empty();
 }
 
 }  // namespace dcharts

@@ -29,6 +29,14 @@ std::vector<std::pair<int, int>> OverlappingPairs(const std::vector<GridTriangle
 /// A chart's triangles on a grid of 2^28 cells over the longer side of their box.
 std::vector<GridTriangle> OnGrid(const Points2& uv, const Triangles& triangles);
 
+/// The triangles of a chart that would overlap first: where no triangle is flipped and there is one boundary
+/// loop, a map overlaps itself only where that crosses itself. All where there are several loops.
+Triangles RimOf(const Triangles& triangles);
+
+/// OverlappingPairs of a chart's map; most maps have none, which takes less to tell.
+std::vector<std::pair<int, int>> OverlapsInMap(const Points2& uv, const Triangles& triangles, size_t limit,
+                                               const std::function<void()>& poll = {});
+
 /// Whether any two triangles of a chart's map overlap.
 bool OverlapsItself(const Points2& uv, const Triangles& triangles, const std::function<void()>& poll = {});
 

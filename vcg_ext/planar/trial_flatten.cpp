@@ -49,25 +49,6 @@ TrialFlattening Measured(const NormalizedChart& normalized, const RestShapes& sh
   return result;
 }
 
-// The triangles that would overlap first. Where no triangle is flipped and there is one boundary loop, a map
-// overlaps itself only where that crosses itself.
-Triangles RimOf(const Triangles& triangles) {
-  const std::vector<std::vector<int>> loops = BoundaryLoops(triangles);
-  if (loops.size() != 1) return triangles;
-  std::vector<int> next(static_cast<size_t>(triangles.maxCoeff()) + 1, -1);
-  for (size_t i = 0; i < loops[0].size(); ++i)
-    next[static_cast<size_t>(loops[0][i])] = loops[0][(i + 1) % loops[0].size()];
-  Triangles rim(triangles.rows(), 3);
-  Eigen::Index count = 0;
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t)
-    for (int k = 0; k < 3; ++k)
-      if (next[static_cast<size_t>(triangles(t, k))] == triangles(t, (k + 1) % 3)) {
-        rim.row(count++) = triangles.row(t);
-        break;
-      }
-  return rim.topRows(count);
-}
-
 size_t CountOverlaps(const Points2& uv, const Triangles& rim) {
   return rim.rows() > 0 ? OverlappingPairs(OnGrid(uv, rim), kClearOverlap).size() : 0;
 }

@@ -188,7 +188,7 @@ class CheckedMerger {
           TrialOptions options;
           options.l2_bound = groups_.bound;
           const TrialFlattening flat = TrialFlatten(open.mesh, options, poll);
-          if (flat.ok) overlaps[k] = OverlappingPairs(OnGrid(flat.uv, open.mesh.triangles), kMostOverlaps);
+          if (flat.ok) overlaps[k] = OverlapsInMap(flat.uv, open.mesh.triangles, kMostOverlaps);
           fits[k] = flat.ok && overlaps[k].empty();
         });
     std::vector<Failure> failures;

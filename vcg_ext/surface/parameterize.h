@@ -140,8 +140,7 @@ class Parameterizer {
       if (all_disks_ && LoopsOf(piece.patch).size() > 1) return;  // a part of a disk must become a disk again
       LayFlat(piece, params_.method, poll);
     }
-    if (piece.flat)
-      piece.overlaps = OverlappingPairs(OnGrid(piece.uv, piece.patch.mesh.triangles), kMostOverlaps, poll);
+    if (piece.flat) piece.overlaps = OverlapsInMap(piece.uv, piece.patch.mesh.triangles, kMostOverlaps, poll);
     if (!piece.overlaps.empty() && state == State::kToFlatten && MayDrawApart()) DrawApart(piece, poll);
   }
 

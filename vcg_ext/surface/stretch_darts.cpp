@@ -147,7 +147,7 @@ std::vector<int> ConePoints(const ChartPatch& patch, const PatchPaths& paths) {
 }
 
 size_t CountOverlaps(const DartedChart& chart, size_t most) {
-  return OverlappingPairs(OnGrid(chart.flat.uv, chart.patch.mesh.triangles), most).size();
+  return OverlapsInMap(chart.flat.uv, chart.patch.mesh.triangles, most).size();
 }
 
 bool Overlaps(const DartedChart& chart) { return CountOverlaps(chart, 1) > 0; }
