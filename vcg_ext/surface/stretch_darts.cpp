@@ -249,8 +249,21 @@ class DartSearch {
     // more.
     if (chart_.flat.l2_stretch <= goal_.l2_stretch) return {worst};
     const std::vector<double> around = Smoothed(chart_.patch, stretch);
-    return Joined({worst}, {Best(paths, [&](int v) { return around[v]; }),
-                            Best(paths, [&](int v) { return paths.Distance(v); })});
+    std::vector<int> tips{worst};
+    for (int tip : {Best(paths, [&](int v) { return around[v]; }),
+                    Best(paths, [&](int v) { return paths.Distance(v); })})
+      if (!IsNearOneOf(paths, tips, tip)) tips.push_back(tip);
+    return tips;
+  }
+
+  // A dart to a place near the end of another one does about the same.
+  bool IsNearOneOf(const PatchPaths& paths, const std::vector<int>& tips, int tip) const {
+    constexpr double kNear = 0.1;  // of its length
+    const Points3& at = chart_.patch.mesh.positions;
+    const auto place = [&](int corner) { return at.row(chart_.patch.Vertex(corner)); };
+    return std::any_of(tips.begin(), tips.end(), [&](int other) {
+      return (place(tip) - place(other)).norm() <= kNear * Length(paths, tip);
+    });
   }
 
   // Each once.
@@ -319,6 +332,7 @@ class DartSearch {
     best.edges.insert(best.edges.begin(), chart_.edges.begin(), chart_.edges.end());
     best.tips.insert(best.tips.begin(), chart_.tips.begin(), chart_.tips.end());
     best.count += chart_.count;
+    best.l2_uncut = chart_.l2_uncut;
     chart_ = std::move(best);
     plain_.reset();
     trials_.clear();
@@ -381,12 +395,13 @@ bool DrawApart(const DartGoal& goal, const std::function<void()>& poll, DartedCh
 
 // What CutStretchDarts makes of it when only the mean stretch counts, or as far as it comes.
 DartedChart CutForMeanStretchAlone(const DartGoal& goal, const std::function<void()>& poll,
-                                   const ChartPatch& patch) {
+                                   const ChartPatch& patch, const Flattening* known) {
   DartGoal mean = goal;
   mean.linf_stretch = std::numeric_limits<double>::infinity();
   DartedChart darted = Uncut(patch);
-  // From no start: from another the search would not end at the darts that a trial of the chart has shown.
-  darted.flat = FlatWithoutFinish(patch, nullptr, poll);
+  // From no start where none is known: from that of the finish the search would not end at the darts that a
+  // trial of the chart has shown.
+  darted.flat = FlatWithoutFinish(patch, known ? &known->uv : nullptr, poll);
   DartSearch(mean, poll, darted).Run();
   return darted;
 }
@@ -403,9 +418,11 @@ bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, 
 }
 
 // Whether the chart is above the goal when it is flattened as well as that goes, which a quick map that is
-// above it doesn't tell.
-bool IsAbove(const DartGoal& goal, const std::function<void()>& poll, const ChartPatch& patch) {
-  constexpr double kSurely = 1.02;  // of L2 - 1
+// a little above it doesn't tell.
+bool IsAbove(const DartGoal& goal, const std::function<void()>& poll, const ChartPatch& patch,
+             double l2_of_quick_map) {
+  constexpr double kFarAbove = 1.5, kSurely = 1.02;  // of L2 - 1
+  if (l2_of_quick_map - 1 > kFarAbove * (goal.l2_stretch - 1)) return true;
   FlattenOptions options;
   options.linf_finish = false;
   const Flattening flat = Flatten(patch.mesh, options, poll);
@@ -464,15 +481,17 @@ DartedChart CutStretchDarts(const ChartPatch& patch, const DartGoal& goal, const
   DartedChart chart = Uncut(patch);
   // A chart that needs them is not finished without.
   if (known.mean_darts && HasFinish(goal) && ConePoints(patch, PatchPaths(patch)).empty() &&
-      IsAbove(goal, poll, patch) && CutForMeanStretch(goal, poll, *known.mean_darts, chart)) {
+      IsAbove(goal, poll, patch, known.mean_darts->l2_uncut) &&
+      CutForMeanStretch(goal, poll, *known.mean_darts, chart)) {
     DartSearch(goal, poll, chart).Run();
     return chart;
   }
   chart = Uncut(patch);
   chart.flat = known.flat ? *known.flat : FlatAsAsked(patch, goal, poll);
+  chart.l2_uncut = chart.flat.l2_stretch;
   if (!chart.flat.ok || CutConePoints(goal, poll, chart)) return chart;
   if (HasFinish(goal) && chart.flat.l2_stretch > goal.l2_stretch &&
-      !CutForMeanStretch(goal, poll, CutForMeanStretchAlone(goal, poll, patch), chart))
+      !CutForMeanStretch(goal, poll, CutForMeanStretchAlone(goal, poll, patch, known.flat), chart))
     return chart;
   DartSearch(goal, poll, chart).Run();
   return chart;

@@ -33,6 +33,7 @@ struct DartedChart {
   ChartPatch patch;        ///< cut open
   Flattening flat;         ///< of `patch`
   std::shared_ptr<CoarserCharts> coarser;  ///< those of `patch`, when it is a large chart
+  double l2_uncut = 1;                     ///< the L2 stretch before, by a quick map
 };
 
 /// What is known of a chart before darts are looked for: it saves time and changes nothing. All may be null.
