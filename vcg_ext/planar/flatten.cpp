@@ -130,6 +130,7 @@ Flattening FlattenLarge(const NormalizedChart& normalized, const FlattenOptions&
   const auto flatten = [&](const ChartMesh& chart, CoarserCharts* coarser) {
     FlattenOptions of_coarse = options;
     of_coarse.coarser = coarser;
+    of_coarse.start = nullptr;
     coarse = Flatten(chart, of_coarse, poll);
     return coarse.uv;
   };
@@ -168,7 +169,7 @@ Flattening Flatten(const ChartMesh& chart, const FlattenOptions& options, const 
     note = conformal.note;
   }
   PlanePoints uv;
-  double energy = FlattenStart(normalized.mesh, shapes, nullptr, system, poll, uv);
+  double energy = FlattenStart(normalized.mesh, shapes, options.start, system, poll, uv);
   if (!std::isfinite(energy)) {
     return Failure("No flat start without flipped triangles was found: the chart has to be cut.");
   }

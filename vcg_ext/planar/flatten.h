@@ -17,6 +17,8 @@ struct FlattenOptions {
   bool linf_finish = true;  ///< lower the worst stretch after the mean stretch; not of conformal maps
   /// Lowering the worst stretch doesn't lift the L2 stretch of a chart that is within this above it; >= 1.
   double l2_bound = std::numeric_limits<double>::infinity();
+  /// UVs to start from, as those of TrialOptions; may be null.
+  const Points2* start = nullptr;
   /// Of a large chart, where there are some; may be null.
   CoarserCharts* coarser = nullptr;
 };

@@ -282,15 +282,40 @@ class Compactor {
       edge.Add(placed_[b].corners[shapes_[b].next[j]]);
       if (edge.DistanceTo(placed_[a].box) <= reach) close_.push_back({edge, static_cast<int>(j)});
     }
+    SortIntoStrips(reach);
     for (size_t i = 0; i < shapes_[a].corners.size(); ++i) {
       const Vec& p = placed_[a].corners[i];
       if (placed_[b].box.DistanceTo(p) > reach) continue;
       const int first = static_cast<int>(edges_.size());
-      for (const auto& [edge, j] : close_)
-        if (edge.DistanceTo(p) <= reach) edges_.push_back(j);
+      for (const int k : strips_[StripOf(p[strip_axis_])])
+        if (close_[k].first.DistanceTo(p) <= reach) edges_.push_back(close_[k].second);
       const int last = static_cast<int>(edges_.size());
       if (first < last) near_.push_back({a, static_cast<int>(i), b, first, last});
     }
+  }
+
+  // Each of close_ into the strips across the longer side of their box that it is within reach of.
+  void SortIntoStrips(double reach) {
+    constexpr double kMostStrips = 256;
+    for (std::vector<int>& strip : strips_) strip.clear();
+    Box box;
+    for (const auto& close : close_) {
+      box.Add(close.first.low);
+      box.Add(close.first.high);
+    }
+    const Vec size = close_.empty() ? Vec(0, 0) : Vec(box.high - box.low);
+    strip_axis_ = size.x() >= size.y() ? 0 : 1;
+    strip_begin_ = close_.empty() ? 0 : box.low[strip_axis_];
+    strip_width_ = std::max(reach, size[strip_axis_] / kMostStrips);
+    strips_.resize(std::max(strips_.size(), static_cast<size_t>(size[strip_axis_] / strip_width_) + 1));
+    strip_count_ = static_cast<int>(size[strip_axis_] / strip_width_) + 1;
+    for (int k = 0; k < static_cast<int>(close_.size()); ++k)
+      for (int strip = StripOf(close_[k].first.low[strip_axis_] - reach);
+           strip <= StripOf(close_[k].first.high[strip_axis_] + reach); ++strip)
+        strips_[strip].push_back(k);
+  }
+  int StripOf(double x) const {
+    return std::clamp(static_cast<int>(std::floor((x - strip_begin_) / strip_width_)), 0, strip_count_ - 1);
   }
 
   // Returns by how much the worst contact is violated.
@@ -416,6 +441,9 @@ class Compactor {
   std::vector<NearEdges> near_;
   std::vector<int> edges_;
   std::vector<std::pair<Box, int>> close_;
+  std::vector<std::vector<int>> strips_;  // of close_
+  int strip_axis_ = 0, strip_count_ = 1;
+  double strip_begin_ = 0, strip_width_ = 1;
   std::vector<NearEdge> found_;
   std::vector<Contact> contacts_;
   double moved_ = 0, listed_scale_ = 0;

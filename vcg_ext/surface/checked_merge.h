@@ -173,7 +173,9 @@ class CheckedMerger {
     std::vector<int> unverified;
     std::vector<ChartPatch> patches;
     for (int c = 0; c < static_cast<int>(groups_.charts.size()); ++c) {
-      if (!groups_.charts[c].alive || groups_.charts[c].verified) continue;
+      auto& chart = groups_.charts[c];
+      if (chart.alive && !chart.verified) chart.verified = fitting_.count({groups_.bound, chart.parts}) > 0;
+      if (!chart.alive || chart.verified) continue;
       unverified.push_back(c);
       patches.push_back(groups_.parts.FinePatch(groups_.charts[c].parts));
     }
@@ -194,7 +196,10 @@ class CheckedMerger {
     std::vector<Failure> failures;
     for (size_t k = 0; k < unverified.size(); ++k) {
       groups_.charts[unverified[k]].verified = fits[k];
-      if (fits[k]) continue;
+      if (fits[k]) {
+        fitting_.insert({groups_.bound, groups_.charts[unverified[k]].parts});
+        continue;
+      }
       failures.push_back({unverified[k], {}});
       for (const auto& [i, j] : overlaps[k]) {
         const int p = groups_.parts.PartOfFine(patches[k].faces[i]),
@@ -330,6 +335,7 @@ class CheckedMerger {
   ChartGroups<MeshType>& groups_;
   KnownFlattenings* const known_;
   GreedyMerger<MeshType> greedy_;
+  std::set<std::pair<double, std::vector<int>>> fitting_;  // bound and parts of charts that held
   int merges_with_darts_ = 0;
 };
 

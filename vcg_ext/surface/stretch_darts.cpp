@@ -75,10 +75,11 @@ std::vector<double> Smoothed(const ChartPatch& patch, std::vector<double> value)
 
 bool HasFinish(const DartGoal& goal) { return std::isfinite(goal.linf_stretch); }
 
-// As the atlas will have it. `coarser`: see FlattenOptions.
+// As the atlas will have it. `start`, `coarser`: see FlattenOptions.
 Flattening FlatWithFinish(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
-                          CoarserCharts* coarser = nullptr) {
+                          const Points2* start, CoarserCharts* coarser = nullptr) {
   FlattenOptions options;
+  options.start = start;
   options.coarser = coarser;
   options.l2_bound = std::max(goal.l2_stretch, goal.l2_bound);
   return Flatten(patch.mesh, options, poll);
@@ -102,7 +103,7 @@ Flattening FlatWithoutFinish(const ChartPatch& patch, const Points2* start, cons
 
 Flattening FlatAsAsked(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
                        CoarserCharts* coarser = nullptr) {
-  return HasFinish(goal) ? FlatWithFinish(patch, goal, poll, coarser)
+  return HasFinish(goal) ? FlatWithFinish(patch, goal, poll, nullptr, coarser)
                          : FlatWithoutFinish(patch, nullptr, poll, coarser);
 }
 
@@ -182,7 +183,7 @@ bool CutConePoints(const DartGoal& goal, const std::function<void()>& poll, Dart
     darted.patch = CutOpen(darted.patch, cut);
     corner_of.erase(nearest);
   }
-  darted.flat = FlatWithFinish(darted.patch, goal, poll);
+  darted.flat = FlatWithFinish(darted.patch, goal, poll, nullptr);
   const double share = chart.patch.Area() / (goal.unit * goal.unit);
   if (!darted.flat.ok || darted.flat.l2_stretch > 1 + kNoStretch ||
       (chart.flat.l2_stretch - darted.flat.l2_stretch) * share < kL2PerUnit * total_length / goal.unit ||
@@ -359,7 +360,7 @@ class DartSearch {
       if (overlaps == 0) return true;
       if (overlaps == kLittle) return false;
     }
-    trial.flat = FlatWithFinish(trial.patch, goal_, poll);
+    trial.flat = FlatWithFinish(trial.patch, goal_, poll, &trial.flat.uv);
     return Helps(chart_.flat, trial.flat, length, goal_) && !Overlaps(trial);
   }
 
@@ -411,7 +412,7 @@ DartedChart CutForMeanStretchAlone(const DartGoal& goal, const std::function<voi
 bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, DartedChart darted,
                        DartedChart& chart) {
   if (darted.count == 0) return false;
-  darted.flat = FlatWithFinish(darted.patch, goal, poll);
+  darted.flat = FlatWithFinish(darted.patch, goal, poll, &darted.flat.uv);
   if (!darted.flat.ok || (Overlaps(darted) && !DrawApart(goal, poll, darted))) return false;
   chart = std::move(darted);
   return chart.flat.l2_stretch <= goal.l2_stretch;
