@@ -6,6 +6,7 @@
 #include <random>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -14,7 +15,10 @@
 #include "planar/boundary_loops.h"
 #include "planar/distortion.h"
 #include "planar/line_search.h"
+#include "planar/map_region.h"
+#include "planar/plane_points.h"
 #include "planar/rest_shapes.h"
+#include "planar/stretch_descent.h"
 #include "planar/stretch_energy.h"
 #include "planar/vertex_block_system.h"
 
@@ -111,6 +115,23 @@ TEST(LineSearch, FirstFlipIsWhereAnAreaVanishes) {
     };
     EXPECT_NEAR(smallest_area(first), 0, 1e-12);
     for (int i = 1; i < 100; ++i) EXPECT_GT(smallest_area(first * i / 100), 0);
+  }
+}
+
+TEST(LineSearch, AFlipBeyondABoundIsNotLookedFor) {
+  const ChartMesh chart = GridChart(6, 6, PlanePoint);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int trial = 0; trial < 50; ++trial) {
+    PlanePoints uv, direction;
+    for (Eigen::Index v = 0; v < chart.positions.rows(); ++v) {
+      uv.emplace_back(chart.positions(v, 0), chart.positions(v, 1));
+      direction.emplace_back(uniform(random), uniform(random));
+    }
+    const double first = FirstFlip(chart.triangles, uv, direction);
+    EXPECT_EQ(FirstFlip(chart.triangles, uv, direction, 1.001 * first), first);
+    EXPECT_EQ(FirstFlip(chart.triangles, uv, direction, 0.999 * first),
+              std::numeric_limits<double>::infinity());
   }
 }
 
@@ -261,6 +282,99 @@ TEST(VertexBlockSystem, SolvesLikeADenseMatrix) {
     EXPECT_NEAR(solution[static_cast<std::size_t>(v)].real(), expected[2 * v], 1e-9);
     EXPECT_NEAR(solution[static_cast<std::size_t>(v)].imag(), expected[2 * v + 1], 1e-9);
   }
+}
+
+// A random block per pair of edges 1 and 2 of a triangle, those of one edge symmetric and positive.
+struct EdgeBlocks {
+  Eigen::Matrix2d b11, b12, b22;
+};
+
+EdgeBlocks RandomEdgeBlocks(std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Eigen::Matrix4d root;
+  for (int i = 0; i < 16; ++i) root(i / 4, i % 4) = uniform(random);
+  const Eigen::Matrix4d all = root * root.transpose();
+  return {all.topLeftCorner<2, 2>(), all.topRightCorner<2, 2>(), all.bottomRightCorner<2, 2>()};
+}
+
+Block2 ToBlock(const Eigen::Matrix2d& m) { return {m(0, 0), m(0, 1), m(1, 0), m(1, 1)}; }
+
+TEST(VertexBlockSystem, BlocksOfEdgesAndUnknownsAmongTheFirstVertices) {
+  const ChartMesh chart = GridChart(5, 4, PlanePoint);
+  const int vertices = static_cast<int>(chart.positions.rows());
+  for (const int free_count : {vertices, 17, 1}) {
+    std::mt19937 random(static_cast<unsigned>(free_count));
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    VertexBlockSystem system(vertices, free_count, chart.triangles);
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(2 * vertices, 2 * vertices);
+    for (Eigen::Index t = 0; t < chart.triangles.rows(); ++t) {
+      const EdgeBlocks blocks = RandomEdgeBlocks(random);
+      system.AddTriangle(t, ToBlock(blocks.b11), ToBlock(blocks.b12), ToBlock(blocks.b22));
+      Eigen::Matrix4d of_edges;
+      of_edges << blocks.b11, blocks.b12, blocks.b12.transpose(), blocks.b22;
+      Eigen::MatrixXd edges = Eigen::MatrixXd::Zero(4, 2 * vertices);  // from vertices
+      for (int e : {0, 1}) {
+        edges.block<2, 2>(2 * e, 2 * chart.triangles(t, e + 1)).setIdentity();
+        edges.block<2, 2>(2 * e, 2 * chart.triangles(t, 0)) = -Eigen::Matrix2d::Identity();
+      }
+      dense += edges.transpose() * of_edges * edges;
+    }
+    Eigen::MatrixXd free = dense.topLeftCorner(2 * free_count, 2 * free_count);
+    free.diagonal().array() += 0.01 * free.diagonal().mean();
+    system.Regularize(0.01);
+    PlanePoints right_hand_side;
+    Eigen::VectorXd dense_right(2 * vertices);
+    for (int v = 0; v < vertices; ++v) {
+      right_hand_side.emplace_back(uniform(random), uniform(random));
+      dense_right.segment<2>(2 * v) << right_hand_side.back().real(), right_hand_side.back().imag();
+    }
+    ASSERT_TRUE(system.Factorize());
+    const PlanePoints solution = system.Solve(right_hand_side);
+    const Eigen::VectorXd expected = free.ldlt().solve(dense_right.head(2 * free_count));
+    ASSERT_EQ(solution.size(), static_cast<std::size_t>(vertices));
+    for (int v = 0; v < vertices; ++v) {
+      const Complex is = solution[static_cast<std::size_t>(v)];
+      const Complex wanted = v < free_count ? Complex(expected[2 * v], expected[2 * v + 1]) : Complex(0, 0);
+      EXPECT_NEAR(std::abs(is - wanted), 0, 1e-9) << v << " of " << free_count;
+    }
+  }
+}
+
+TEST(MapRegion, OnlyWhatMovesChangesAndTheWholeIsMeasured) {
+  const ChartMesh chart = GridChart(12, 9, [](double x, double y) -> Eigen::RowVector3d {
+    return {x, y, 0.3 * std::exp(-20 * ((x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5)))};
+  });
+  PlanePoints uv;
+  std::vector<char> moves;
+  for (Eigen::Index v = 0; v < chart.positions.rows(); ++v) {
+    uv.emplace_back(chart.positions(v, 0), chart.positions(v, 1));
+    moves.push_back(std::abs(uv.back() - Complex(0.5, 0.5)) < 0.25);
+  }
+  const RestShapes shapes = RestShapesOf(chart);
+  VertexBlockSystem system(static_cast<int>(uv.size()), chart.triangles);
+  MapRegion region(chart, shapes, uv, moves, system);
+  EXPECT_FALSE(region.IsWhole());
+  EXPECT_NE(&region.System(), &system);
+  EXPECT_NEAR(region.Measure(region.Uv()).L2(), MeasureStretch(chart, ToPoints(uv, 1)).L2(), 1e-12);
+  EXPECT_NEAR(region.Measure(region.Uv()).Linf(), MeasureStretch(chart, ToPoints(uv, 1)).Linf(), 1e-12);
+  PlanePoints lower = region.Uv(), after = uv;
+  Descend({StretchEnergy::Kind::kSander}, {}, region.LocalTriangles(), region.Shapes(), region.System(), {},
+          lower);
+  region.Write(lower, after);
+  int moved = 0;
+  for (std::size_t v = 0; v < uv.size(); ++v) {
+    moved += after[v] != uv[v];
+    if (!moves[v]) {
+      EXPECT_EQ(after[v], uv[v]);
+    }
+  }
+  EXPECT_EQ(moved, std::count(moves.begin(), moves.end(), 1));
+  EXPECT_NEAR(region.Measure(lower).L2(), MeasureStretch(chart, ToPoints(after, 1)).L2(), 1e-12);
+  EXPECT_LT(region.Measure(lower).L2(), region.Measure(region.Uv()).L2());
+
+  MapRegion whole(chart, shapes, uv, std::vector<char>(uv.size(), 1), system);
+  EXPECT_TRUE(whole.IsWhole());
+  EXPECT_EQ(&whole.System(), &system);
 }
 
 TEST(VertexBlockSystem, SaysWhenAMatrixIsNotPositiveDefinite) {

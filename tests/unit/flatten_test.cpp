@@ -186,6 +186,37 @@ TEST(Flatten, LinfFinishKeepsWithinABoundOnTheMean) {
   EXPECT_EQ(Flatten(chart, bounded).l2_stretch, most);
 }
 
+// What is stretched most is in one place: the rest hardly hears of it.
+TEST(Flatten, LinfFinishOfOneSteepPlace) {
+  const ChartMesh chart = GridChart(40, 40, [](double x, double y) -> Eigen::RowVector3d {
+    const double square = (x - 0.3) * (x - 0.3) + (y - 0.4) * (y - 0.4);
+    return {x, y, 0.1 * std::exp(-150 * square)};
+  });
+  FlattenOptions without;
+  without.linf_finish = false;
+  const Flattening mean = Flatten(chart, without), worst = Flatten(chart);
+  ExpectSound(chart, worst);
+  EXPECT_LT(worst.linf_stretch - 1, 0.85 * (mean.linf_stretch - 1));
+  EXPECT_LE(worst.l2_stretch - 1, 1.2 * (mean.l2_stretch - 1) + 1e-12);
+}
+
+TEST(Flatten, GoesOnFromAStart) {
+  const ChartMesh chart = SphereCap(30, 1.5);
+  FlattenOptions options;
+  options.linf_finish = false;
+  const Flattening flat = Flatten(chart, options);
+  // The same after it was squeezed, but not from a flipped one, of which nothing is taken.
+  Points2 squeezed = flat.uv, flipped = flat.uv;
+  squeezed.col(0) *= 0.8;
+  flipped.col(0) *= -1;
+  options.start = &squeezed;
+  const Flattening again = Flatten(chart, options);
+  ExpectSound(chart, again);
+  EXPECT_NEAR(again.l2_stretch, flat.l2_stretch, 0.01 * (flat.l2_stretch - 1));
+  options.start = &flipped;
+  EXPECT_EQ(Flatten(chart, options).uv, flat.uv);
+}
+
 TEST(Flatten, TubeWithTwoLoopsOpensAsARing) {
   const ChartMesh chart = Tube(24, 8, false, [](double angle, int ring) -> Eigen::RowVector3d {
     const double r = 1 + 0.1 * ring;

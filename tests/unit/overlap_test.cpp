@@ -2,6 +2,7 @@
 #include "planar/overlap.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "atlas_checks.h"
+#include "flatten_charts.h"
 
 namespace dcharts {
 namespace {
@@ -171,6 +173,46 @@ TEST(OverlappingPairs, FlatSheetHasNone) {
       sheet.push_back({i, j, i + 1, j + 1, i, j + 1});
     }
   EXPECT_TRUE(OverlappingPairs(sheet, 1000).empty());
+}
+
+// What takes less time says the same: of maps of a sheet and of one with a hole, wound up by more and more.
+TEST(OverlapsInMap, AgreesWithAllPairs) {
+  constexpr size_t kMany = 100'000;
+  int with = 0, without = 0;
+  for (const bool hole : {false, true}) {
+    const ChartMesh chart =
+        GridChart(60, 4, PlanePoint, [&](int i, int j) { return !hole || i != 30 || j == 0 || j == 3; });
+    for (const double turns : {0.0, 0.5, 0.9, 1.1, 2.0}) {
+      Points2 uv(chart.positions.rows(), 2);
+      for (Eigen::Index v = 0; v < uv.rows(); ++v) {
+        const double angle = 2 * kTestPi * turns * chart.positions(v, 0) / 2,
+                     radius = 3 - chart.positions(v, 1);
+        uv.row(v) << (turns > 0 ? radius * std::sin(angle) : chart.positions(v, 0)),
+            (turns > 0 ? -radius * std::cos(angle) : chart.positions(v, 1));
+      }
+      const Pairs all = OverlappingPairs(OnGrid(uv, chart.triangles), kMany);
+      EXPECT_EQ(OverlapsInMap(uv, chart.triangles, kMany), all) << turns;
+      EXPECT_EQ(OverlapsItself(uv, chart.triangles), !all.empty());
+      (all.empty() ? without : with) += 1;
+    }
+  }
+  EXPECT_EQ(without, 6);
+  EXPECT_EQ(with, 4);
+}
+
+TEST(OverlapsInMap, AFlippedTriangleWithinIsFound) {
+  const ChartMesh chart = GridChart(5, 5, PlanePoint);
+  Points2 uv = chart.positions.leftCols<2>();
+  EXPECT_FALSE(OverlapsItself(uv, chart.triangles));
+  const Triangles rim = RimOf(chart.triangles);
+  EXPECT_LT(rim.rows(), chart.triangles.rows());
+  // A vertex in the middle that no triangle of the rim has is pulled over its neighbours.
+  for (Eigen::Index v = 0; v < uv.rows(); ++v)
+    if (std::abs(uv(v, 0) - 0.8) < 1e-9 && std::abs(uv(v, 1) - 0.4) < 1e-9) {
+      ASSERT_EQ((rim.array() == static_cast<int>(v)).count(), 0);
+      uv.row(v) << 1.3, 0.7;
+    }
+  EXPECT_TRUE(OverlapsItself(uv, chart.triangles));
 }
 
 TEST(OnGrid, KeepsShapeAndSharedVertices) {
