@@ -54,7 +54,7 @@ class Extension {
   std::vector<double> Run() {
     Unfold();
     ListPlaced();
-    constexpr int kRelaxations = 20;
+    constexpr int kRelaxations = 30;
     for (int i = 0; i < kRelaxations; ++i) Relax();
     std::vector<double> energy(flat_.size(), 0);
     for (int t = 0; t < static_cast<int>(flat_.size()); ++t) {

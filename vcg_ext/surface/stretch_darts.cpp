@@ -77,7 +77,7 @@ bool HasFinish(const DartGoal& goal) { return std::isfinite(goal.linf_stretch); 
 
 // As the atlas will have it. `start`, `coarser`: see FlattenOptions.
 Flattening FlatWithFinish(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
-                          const Points2* start, CoarserCharts* coarser = nullptr) {
+                          const Points2* start = nullptr, CoarserCharts* coarser = nullptr) {
   FlattenOptions options;
   options.start = start;
   options.coarser = coarser;
@@ -183,7 +183,7 @@ bool CutConePoints(const DartGoal& goal, const std::function<void()>& poll, Dart
     darted.patch = CutOpen(darted.patch, cut);
     corner_of.erase(nearest);
   }
-  darted.flat = FlatWithFinish(darted.patch, goal, poll, nullptr);
+  darted.flat = FlatWithFinish(darted.patch, goal, poll);
   const double share = chart.patch.Area() / (goal.unit * goal.unit);
   if (!darted.flat.ok || darted.flat.l2_stretch > 1 + kNoStretch ||
       (chart.flat.l2_stretch - darted.flat.l2_stretch) * share < kL2PerUnit * total_length / goal.unit ||
@@ -360,7 +360,8 @@ class DartSearch {
       if (overlaps == 0) return true;
       if (overlaps == kLittle) return false;
     }
-    trial.flat = FlatWithFinish(trial.patch, goal_, poll, &trial.flat.uv);
+    // Parameterize has no start: the atlas's map must not have one.
+    trial.flat = FlatWithFinish(trial.patch, goal_, poll, HasFinish(goal_) ? nullptr : &trial.flat.uv);
     return Helps(chart_.flat, trial.flat, length, goal_) && !Overlaps(trial);
   }
 
@@ -412,7 +413,7 @@ DartedChart CutForMeanStretchAlone(const DartGoal& goal, const std::function<voi
 bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, DartedChart darted,
                        DartedChart& chart) {
   if (darted.count == 0) return false;
-  darted.flat = FlatWithFinish(darted.patch, goal, poll, &darted.flat.uv);
+  darted.flat = FlatWithFinish(darted.patch, goal, poll);
   if (!darted.flat.ok || (Overlaps(darted) && !DrawApart(goal, poll, darted))) return false;
   chart = std::move(darted);
   return chart.flat.l2_stretch <= goal.l2_stretch;
