@@ -89,16 +89,23 @@ TEST(BoundaryLoops, HolesThatTouchInAVertexAreNoChart) {
   EXPECT_FALSE(WhyNotAChart(chart).empty());
 }
 
+// A plane chart's own points, and a random direction for each.
+std::pair<PlanePoints, PlanePoints> FlatAndRandom(const ChartMesh& chart, std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::pair<PlanePoints, PlanePoints> points;
+  for (Eigen::Index v = 0; v < chart.positions.rows(); ++v) {
+    points.first.emplace_back(chart.positions(v, 0), chart.positions(v, 1));
+    points.second.emplace_back(uniform(random), uniform(random));
+  }
+  return points;
+}
+
 TEST(LineSearch, FirstFlipIsWhereAnAreaVanishes) {
   const ChartMesh chart = GridChart(4, 4, PlanePoint);
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> uniform(-1, 1);
   for (int trial = 0; trial < 50; ++trial) {
-    PlanePoints uv, direction;
-    for (Eigen::Index v = 0; v < chart.positions.rows(); ++v) {
-      uv.emplace_back(chart.positions(v, 0), chart.positions(v, 1));
-      direction.emplace_back(uniform(random), uniform(random));
-    }
+    const auto points = FlatAndRandom(chart, random);
+    const PlanePoints &uv = points.first, &direction = points.second;
     const double first = FirstFlip(chart.triangles, uv, direction);
     ASSERT_TRUE(std::isfinite(first));
     const auto smallest_area = [&](double t) {
@@ -121,13 +128,8 @@ TEST(LineSearch, FirstFlipIsWhereAnAreaVanishes) {
 TEST(LineSearch, AFlipBeyondABoundIsNotLookedFor) {
   const ChartMesh chart = GridChart(6, 6, PlanePoint);
   std::mt19937 random(4);
-  std::uniform_real_distribution<double> uniform(-1, 1);
   for (int trial = 0; trial < 50; ++trial) {
-    PlanePoints uv, direction;
-    for (Eigen::Index v = 0; v < chart.positions.rows(); ++v) {
-      uv.emplace_back(chart.positions(v, 0), chart.positions(v, 1));
-      direction.emplace_back(uniform(random), uniform(random));
-    }
+    const auto [uv, direction] = FlatAndRandom(chart, random);
     const double first = FirstFlip(chart.triangles, uv, direction);
     EXPECT_EQ(FirstFlip(chart.triangles, uv, direction, 1.001 * first), first);
     EXPECT_EQ(FirstFlip(chart.triangles, uv, direction, 0.999 * first),

@@ -72,24 +72,20 @@ double StretchFigures::Shear() const { return surface_area_ > 0 ? shear_ / surfa
 StretchFigures MeasureStretch(const ChartMesh& chart, const Points2& uv) {
   StretchFigures figures;
   if (chart.triangles.rows() == 0) return figures;
-  // Measured at a size near 1, so that areas neither over- nor underflow; by a power of two, which rounds
-  // nothing.
+  // Measured at a size near 1, so that areas neither over- nor underflow.
   const Eigen::RowVector3d box = chart.positions.colwise().maxCoeff() - chart.positions.colwise().minCoeff();
   const Eigen::RowVector2d uv_box = uv.colwise().maxCoeff() - uv.colwise().minCoeff();
-  const auto near_size = [](double size) {
-    return size > 0 && std::isfinite(size) ? std::ldexp(1.0, std::ilogb(size)) : 1.0;
-  };
-  const double size = near_size(box.maxCoeff()), uv_size = near_size(uv_box.maxCoeff());
-  const double factor = 1 / size, uv_factor = 1 / uv_size;
-  const double area_floor = kAreaFloor * (box * factor).squaredNorm();
+  const auto size_or_one = [](double size) { return size > 0 && std::isfinite(size) ? size : 1.0; };
+  const double size = size_or_one(box.maxCoeff()), uv_size = size_or_one(uv_box.maxCoeff());
+  const double area_floor = kAreaFloor * (box / size).squaredNorm();
   Eigen::Matrix3d corners;
   Eigen::Matrix<double, 3, 2> flat;
   for (Eigen::Index t = 0; t < chart.triangles.rows(); ++t) {
     const Eigen::RowVector3d origin = chart.positions.row(chart.triangles(t, 0));
     const Eigen::RowVector2d uv_origin = uv.row(chart.triangles(t, 0));
     for (int k = 0; k < 3; ++k) {
-      corners.row(k) = (chart.positions.row(chart.triangles(t, k)) - origin) * factor;
-      flat.row(k) = (uv.row(chart.triangles(t, k)) - uv_origin) * uv_factor;
+      corners.row(k) = (chart.positions.row(chart.triangles(t, k)) - origin) / size;
+      flat.row(k) = (uv.row(chart.triangles(t, k)) - uv_origin) / uv_size;
     }
     figures.Add(StretchOfTriangle(corners, flat), area_floor);
   }

@@ -193,8 +193,8 @@ void VertexBlockSystem::Regularize(double factor) {
 void VertexBlockSystem::Pin(Eigen::Index vertex, const Complex& value, PlanePoints& right_hand_side) {
   const int pinned = place_[At(vertex)];
   const Eigen::Vector2d pinned_at(value.real(), value.imag());
-  std::vector<Eigen::Vector2d> shift(At(vertex_count_), Eigen::Vector2d::Zero());
-  for (int column = 0; column < vertex_count_; ++column) {
+  std::vector<Eigen::Vector2d> shift(At(free_count_), Eigen::Vector2d::Zero());
+  for (int column = 0; column < free_count_; ++column) {
     for (int p = matrix_.start[At(column)]; p < matrix_.start[At(column) + 1]; ++p) {
       const int row = matrix_.row[At(p)];
       if (row != pinned && column != pinned) continue;
@@ -205,7 +205,7 @@ void VertexBlockSystem::Pin(Eigen::Index vertex, const Complex& value, PlanePoin
     }
   }
   matrix_.diagonal[At(pinned)].setIdentity();
-  for (int v = 0; v < vertex_count_; ++v) {
+  for (int v = 0; v < free_count_; ++v) {
     const Eigen::Vector2d& moved = shift[At(place_[At(v)])];
     right_hand_side[At(v)] -= Complex(moved.x(), moved.y());
   }

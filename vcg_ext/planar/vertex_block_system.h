@@ -50,8 +50,8 @@ class VertexBlockSystem {
   /// Adds `factor` times the mean of the diagonal to all of the diagonal.
   void Regularize(double factor);
 
-  /// Makes the solution at `vertex` be `value`, and moves what that contributes to the others to their right
-  /// hand sides.
+  /// Makes the solution at `vertex`, a free one, be `value`, and moves what that contributes to the others to
+  /// their right hand sides.
   void Pin(Eigen::Index vertex, const Complex& value, PlanePoints& right_hand_side);
 
   /// False when the matrix is not positive definite.
