@@ -63,7 +63,8 @@ OTHER_OF_FILTER = {
 }
 # By default the model ends as three charts, whatever it begins with.
 OTHER_OF_FILTER |= {('dcharts_texture_atlas', name): (OTHER[name][0], {'max_stretch': 1.002})
-                    for name in ('max_fitting_error', 'small_hole_percent', 'straighten_by')}
+                    for name in ('max_fitting_error', 'straighten_by')}
+OTHER_OF_FILTER[('dcharts_texture_atlas', 'small_hole_percent')] = (100.0, {'max_stretch': 1.002, 'max_fitting_error': 0.02})
 FROM_THE_START = ('dcharts_segment', 'dcharts_texture_atlas', 'dcharts_pattern')
 
 
