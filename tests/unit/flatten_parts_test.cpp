@@ -231,6 +231,20 @@ TEST(StretchEnergy, ReweightedGradientIsTheTrueOne) {
   EXPECT_NEAR(std::abs(newton.gradient_beta - reweighted.gradient_beta), 0, 1e-14);
 }
 
+PlanePoints RandomPoints(int count, std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  PlanePoints points;
+  for (int v = 0; v < count; ++v) points.emplace_back(uniform(random), uniform(random));
+  return points;
+}
+
+Eigen::VectorXd AsVector(const PlanePoints& points) {
+  Eigen::VectorXd vector(2 * points.size());
+  for (std::size_t v = 0; v < points.size(); ++v)
+    vector.segment<2>(static_cast<Eigen::Index>(2 * v)) << points[v].real(), points[v].imag();
+  return vector;
+}
+
 TEST(VertexBlockSystem, SolvesLikeADenseMatrix) {
   const ChartMesh chart = GridChart(4, 3, PlanePoint);
   const int vertices = static_cast<int>(chart.positions.rows());
@@ -255,12 +269,8 @@ TEST(VertexBlockSystem, SolvesLikeADenseMatrix) {
   const double shift = 0.1 * dense.diagonal().mean();
   dense.diagonal().array() += shift;
   system.Regularize(0.1);
-  PlanePoints right_hand_side;
-  Eigen::VectorXd dense_right(2 * vertices);
-  for (int v = 0; v < vertices; ++v) {
-    right_hand_side.emplace_back(uniform(random), uniform(random));
-    dense_right.segment<2>(2 * v) << right_hand_side.back().real(), right_hand_side.back().imag();
-  }
+  PlanePoints right_hand_side = RandomPoints(vertices, random);
+  Eigen::VectorXd dense_right = AsVector(right_hand_side);
   ASSERT_TRUE(system.Factorize());
   PlanePoints solution = system.Solve(right_hand_side);
   Eigen::VectorXd expected = dense.ldlt().solve(dense_right);
@@ -286,19 +296,6 @@ TEST(VertexBlockSystem, SolvesLikeADenseMatrix) {
   }
 }
 
-// A random block per pair of edges 1 and 2 of a triangle, those of one edge symmetric and positive.
-struct EdgeBlocks {
-  Eigen::Matrix2d b11, b12, b22;
-};
-
-EdgeBlocks RandomEdgeBlocks(std::mt19937& random) {
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  Eigen::Matrix4d root;
-  for (int i = 0; i < 16; ++i) root(i / 4, i % 4) = uniform(random);
-  const Eigen::Matrix4d all = root * root.transpose();
-  return {all.topLeftCorner<2, 2>(), all.topRightCorner<2, 2>(), all.bottomRightCorner<2, 2>()};
-}
-
 Block2 ToBlock(const Eigen::Matrix2d& m) { return {m(0, 0), m(0, 1), m(1, 0), m(1, 1)}; }
 
 TEST(VertexBlockSystem, BlocksOfEdgesAndUnknownsAmongTheFirstVertices) {
@@ -310,10 +307,10 @@ TEST(VertexBlockSystem, BlocksOfEdgesAndUnknownsAmongTheFirstVertices) {
     VertexBlockSystem system(vertices, free_count, chart.triangles);
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(2 * vertices, 2 * vertices);
     for (Eigen::Index t = 0; t < chart.triangles.rows(); ++t) {
-      const EdgeBlocks blocks = RandomEdgeBlocks(random);
-      system.AddTriangle(t, ToBlock(blocks.b11), ToBlock(blocks.b12), ToBlock(blocks.b22));
-      Eigen::Matrix4d of_edges;
-      of_edges << blocks.b11, blocks.b12, blocks.b12.transpose(), blocks.b22;
+      const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(4, 4, [&] { return uniform(random); });
+      const Eigen::Matrix4d of_edges = root * root.transpose();
+      system.AddTriangle(t, ToBlock(of_edges.topLeftCorner<2, 2>()), ToBlock(of_edges.topRightCorner<2, 2>()),
+                         ToBlock(of_edges.bottomRightCorner<2, 2>()));
       Eigen::MatrixXd edges = Eigen::MatrixXd::Zero(4, 2 * vertices);  // from vertices
       for (int e : {0, 1}) {
         edges.block<2, 2>(2 * e, 2 * chart.triangles(t, e + 1)).setIdentity();
@@ -324,12 +321,8 @@ TEST(VertexBlockSystem, BlocksOfEdgesAndUnknownsAmongTheFirstVertices) {
     Eigen::MatrixXd free = dense.topLeftCorner(2 * free_count, 2 * free_count);
     free.diagonal().array() += 0.01 * free.diagonal().mean();
     system.Regularize(0.01);
-    PlanePoints right_hand_side;
-    Eigen::VectorXd dense_right(2 * vertices);
-    for (int v = 0; v < vertices; ++v) {
-      right_hand_side.emplace_back(uniform(random), uniform(random));
-      dense_right.segment<2>(2 * v) << right_hand_side.back().real(), right_hand_side.back().imag();
-    }
+    PlanePoints right_hand_side = RandomPoints(vertices, random);
+    Eigen::VectorXd dense_right = AsVector(right_hand_side);
     ASSERT_TRUE(system.Factorize());
     const PlanePoints solution = system.Solve(right_hand_side);
     const Eigen::VectorXd expected = free.ldlt().solve(dense_right.head(2 * free_count));

@@ -16,8 +16,8 @@ double MapEnergy(const StretchEnergy& energy, const Triangles& triangles, const 
                  const PlanePoints& uv);
 
 /// The smallest t > 0 at which a triangle loses its area on the way from `uv` to uv + t direction
-/// [Smith and Schaefer 2015]; +infinity when none does before
-/// `up_to`. All areas in `uv` must be positive.
+/// [Smith and Schaefer 2015]; +infinity when none does before `up_to`. All areas in `uv`
+/// must be positive.
 double FirstFlip(const Triangles& triangles, const PlanePoints& uv, const PlanePoints& direction,
                  double up_to = std::numeric_limits<double>::infinity());
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "planar/contractions.h"
 #include "planar/distortion.h"
 #include "planar/line_search.h"
 #include "planar/map_region.h"
@@ -42,16 +43,6 @@ double DearestMean(double worst) {
   return kLeast + (kMost - kLeast) * std::min(std::max(share, 0.0), 1.0);
 }
 
-double ContractionOf(const Triangles& triangles, const RestShapes& shapes, const PlanePoints& uv,
-                     Eigen::Index t) {
-  const RestShape& shape = shapes[static_cast<std::size_t>(t)];
-  if (shape.sliver) return 0;
-  const Complex z0 = uv[static_cast<std::size_t>(triangles(t, 0))];
-  const Complex e1 = uv[static_cast<std::size_t>(triangles(t, 1))] - z0;
-  const Complex e2 = uv[static_cast<std::size_t>(triangles(t, 2))] - z0;
-  return TriangleContraction(shape, e1, e2);
-}
-
 double WorstContraction(const Triangles& triangles, const RestShapes& shapes, const PlanePoints& uv) {
   double worst = 0;
   for (Eigen::Index t = 0; t < triangles.rows(); ++t)
@@ -69,17 +60,7 @@ std::vector<char> NearTheWorst(const Triangles& triangles, const RestShapes& sha
   for (Eigen::Index t = 0; t < triangles.rows(); ++t)
     contraction[static_cast<std::size_t>(t)] = ContractionOf(triangles, shapes, uv, t);
   const double bound = bad * *std::max_element(contraction.begin(), contraction.end());
-  std::vector<char> near(uv.size(), 0);
-  const auto corner = [&](Eigen::Index t, int i) { return static_cast<std::size_t>(triangles(t, i)); };
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t)
-    if (contraction[static_cast<std::size_t>(t)] > bound)
-      for (int i = 0; i < 3; ++i) near[corner(t, i)] = 1;
-  for (int ring = 0; ring < kRings; ++ring) {
-    const std::vector<char> before = near;
-    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
-      if (before[corner(t, 0)] || before[corner(t, 1)] || before[corner(t, 2)])
-        for (int i = 0; i < 3; ++i) near[corner(t, i)] = 1;
-  }
+  std::vector<char> near = NearContracted(triangles, contraction, uv.size(), bound, kRings);
   const auto count = static_cast<std::size_t>(std::count(near.begin(), near.end(), 1));
   if (count == 0 || kFew * count > near.size()) near.assign(near.size(), 1);
   return near;

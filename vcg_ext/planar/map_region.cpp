@@ -47,7 +47,7 @@ MapRegion::MapRegion(const ChartMesh& chart, const RestShapes& shapes, const Pla
     shapes_.push_back(shapes[At(faces_[k])]);
   }
   for (const int v : vertices_) uv_.push_back(uv[At(v)]);
-  if (!IsWhole() || free_count < static_cast<int>(moves.size()))
+  if (free_count < static_cast<int>(moves.size()))
     own_system_.emplace(static_cast<int>(vertices_.size()), free_count, triangles_);
 }
 

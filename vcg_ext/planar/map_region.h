@@ -22,7 +22,7 @@ class MapRegion {
             const std::vector<char>& moves, VertexBlockSystem& system);
   MapRegion(const MapRegion&) = delete;
 
-  bool IsWhole() const { return faces_.size() == static_cast<std::size_t>(chart_.triangles.rows()); }
+  bool IsWhole() const { return !own_system_; }  ///< all vertices move
   const Triangles& LocalTriangles() const { return triangles_; }
   const RestShapes& Shapes() const { return shapes_; }
   VertexBlockSystem& System() { return own_system_ ? *own_system_ : system_; }

@@ -7,6 +7,7 @@
 
 #include "common/parallel.h"
 #include "common/union_find.h"
+#include "planar/contractions.h"
 #include "planar/line_search.h"
 #include "planar/vertex_block_system.h"
 
@@ -136,12 +137,8 @@ std::vector<double> VertexSweeps::Contractions(const std::function<void()>& poll
   const int count = static_cast<int>(shapes_.size());
   std::vector<double> contractions(shapes_.size(), 0);
   InParallel((count + kBlock - 1) / kBlock, poll, [&](int block, const std::function<void()>&) {
-    for (int t = kBlock * block; t < std::min(kBlock * (block + 1), count); ++t) {
-      if (shapes_[At(t)].sliver) continue;
-      const Complex z = uv[At(triangles_(t, 0))];
-      contractions[At(t)] =
-          TriangleContraction(shapes_[At(t)], uv[At(triangles_(t, 1))] - z, uv[At(triangles_(t, 2))] - z);
-    }
+    for (int t = kBlock * block; t < std::min(kBlock * (block + 1), count); ++t)
+      contractions[At(t)] = ContractionOf(triangles_, shapes_, uv, t);
   });
   return contractions;
 }
@@ -200,14 +197,7 @@ void VertexSweeps::LowerWorst(const std::function<void()>& poll, PlanePoints& uv
 }
 
 std::vector<int> VertexSweeps::VerticesNear(const std::vector<double>& contractions, double bound) const {
-  std::vector<char> bad(first_.size() - 1, 0), near(bad.size(), 0);
-  const auto corner = [&](int t, int i) { return At(triangles_(t, i)); };
-  for (int t = 0; t < static_cast<int>(shapes_.size()); ++t)
-    if (contractions[At(t)] > bound)
-      for (int i = 0; i < 3; ++i) bad[corner(t, i)] = 1;
-  for (int t = 0; t < static_cast<int>(shapes_.size()); ++t)
-    if (bad[corner(t, 0)] || bad[corner(t, 1)] || bad[corner(t, 2)])
-      for (int i = 0; i < 3; ++i) near[corner(t, i)] = 1;
+  const std::vector<char> near = NearContracted(triangles_, contractions, first_.size() - 1, bound, 1);
   std::vector<int> vertices;
   for (int v = 0; v < static_cast<int>(near.size()); ++v)
     if (near[At(v)]) vertices.push_back(v);
