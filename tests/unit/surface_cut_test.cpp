@@ -12,6 +12,7 @@
 
 #include "common/pi.h"
 #include "planar/flatten.h"
+#include "surface/patch_paths.h"
 #include "surface_fixture.h"
 
 namespace dcharts {
@@ -31,7 +32,8 @@ CutResult CutOne(const TestSurface& surface, const Params& params = {}) {
   SplitAndCompact(*surface, result.ids);
   Progress progress;
   KnownFlattenings known;
-  result.darts = ChartCutter<SurfaceMesh>(*surface, params, progress).Run(result.ids, result.seams, known);
+  result.darts = ChartCutter<SurfaceMesh>(*surface, params, progress)
+                     .Run(ChartsFor::kPattern, result.ids, result.seams, known);
   return result;
 }
 
@@ -349,9 +351,9 @@ TEST(Cut, DartsLowerAMeanStretchAboveHalfwayToTheBound) {
     Progress progress;
     result.ids.assign(surface->FaceCount(), 0);
     ChartCutter<SurfaceMesh> cutter(*surface, params, progress);
-    EXPECT_EQ(cutter.Run(result.ids, result.seams, known), 0);
+    EXPECT_EQ(cutter.Run(ChartsFor::kPattern, result.ids, result.seams, known), 0);
     const double before = known.Find(Patches(surface, result)[0])->l2_stretch;
-    result.darts = cutter.LowerMeanStretch(result.ids, result.seams, known);
+    result.darts = cutter.Run(ChartsFor::kAtlas, result.ids, result.seams, known);
     ExpectWellFormed(surface, result);
     EXPECT_EQ(ChartCount(result.ids), 1);
     const Flattening* flat = known.Find(Patches(surface, result)[0]);
@@ -383,7 +385,8 @@ TEST(Cut, BordersBetweenChartsAreSeams) {
   const ChartIds before = result.ids;
   Progress progress;
   KnownFlattenings known;
-  result.darts = ChartCutter<SurfaceMesh>(*surface, Params(), progress).Run(result.ids, result.seams, known);
+  result.darts = ChartCutter<SurfaceMesh>(*surface, Params(), progress)
+                     .Run(ChartsFor::kPattern, result.ids, result.seams, known);
   EXPECT_EQ(result.ids, before);
   EXPECT_EQ(result.darts, 0);
   EXPECT_EQ(result.seams, ChartBorders(*surface, before));

@@ -63,7 +63,8 @@ std::vector<Dart> CutInOneChart(const TestSurface& surface, DartMethod by, doubl
   SeamMask seams;
   KnownFlattenings known;
   Progress progress;
-  const int count = ChartCutter<SurfaceMesh>(*surface, params, progress).Run(ids, seams, known);
+  const int count =
+      ChartCutter<SurfaceMesh>(*surface, params, progress).Run(ChartsFor::kPattern, ids, seams, known);
   std::vector<int> edges;
   for (int h = 0; h < surface->HalfEdgeCount(); ++h)
     if (surface->Opposite(h) > h && IsSeam(seams, h)) edges.push_back(h);

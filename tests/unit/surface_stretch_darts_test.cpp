@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planar/overlap.h"
+#include "common/pi.h"
 #include "planar/trial_flatten.h"
 #include "surface/patch_paths.h"
 #include "surface_fixture.h"
@@ -33,8 +33,6 @@ double Length(const ChartPatch& patch, const std::vector<int>& edges) {
   for (int h : edges) length += patch.Length(h);
   return length;
 }
-
-bool Overlaps(const DartedChart& chart) { return OverlapsItself(chart.flat.uv, chart.patch.mesh.triangles); }
 
 TEST(StretchDarts, AConeGetsOneToItsApex) {
   const TestSurface surface(shapes::OpenCone(24));
@@ -215,6 +213,57 @@ TEST(StretchDarts, KnownDartsThatAreNotNeededAreLeft) {
   ASSERT_LE(darted.flat.l2_stretch, goal.l2_stretch);
   ASSERT_EQ(CutStretchDarts(patch, goal, [] {}).count, 0);
   EXPECT_EQ(CutStretchDarts(patch, goal, [] {}, {nullptr, &darted}).count, 0);
+}
+
+TEST(StretchDarts, TheFinishMayComeLater) {
+  const TestSurface surface(shapes::SphericalCap(12, 1.5));
+  const ChartPatch patch = surface.WholePatch();
+  const DartGoal goal = Goal(1.01, 1.3, patch.Diagonal());
+  DartedChart chart = CutMeanDarts(patch, goal, [] {});
+  EXPECT_FALSE(chart.finished);
+  EXPECT_GE(chart.count, 1);
+  EXPECT_LE(chart.flat.l2_stretch, goal.l2_stretch);
+  ASSERT_TRUE(FinishDarts(
+      goal, [] {}, chart));
+  EXPECT_TRUE(chart.finished);
+  const DartedChart at_once = CutStretchDarts(patch, goal, [] {});
+  EXPECT_EQ(chart.edges, at_once.edges);
+  EXPECT_EQ(chart.flat.uv, at_once.flat.uv);
+}
+
+TEST(StretchDarts, MoreDartsLowerTheMeanStretch) {
+  const TestSurface surface(shapes::SphericalCap(12, 1.5));
+  const ChartPatch patch = surface.WholePatch();
+  const DartedChart before = CutMeanDarts(patch, Goal(1.01, 1.3, patch.Diagonal()), [] {});
+  DartedChart chart = before;
+  const double halfway = 1 + (before.flat.l2_stretch - 1) / 2;
+  ASSERT_TRUE(AddMeanDarts(
+      Goal(halfway, 1.3, patch.Diagonal()), [] {}, chart));
+  EXPECT_FALSE(chart.finished);
+  EXPECT_GT(chart.count, before.count);
+  EXPECT_LT(chart.flat.l2_stretch, before.flat.l2_stretch);
+  EXPECT_TRUE(std::equal(before.edges.begin(), before.edges.end(), chart.edges.begin()))
+      << "those that were there stay";
+  DartedChart kept = before;
+  EXPECT_FALSE(AddMeanDarts(
+      Goal(halfway, 1.3, 0), [] {}, kept))
+      << "none may have any length";
+  EXPECT_EQ(kept.edges, before.edges);
+}
+
+// A ramp that winds around an axis one and a half times lies on itself, whatever is done.
+TEST(StretchDarts, WhatOverlapsItselfIsNotFinished) {
+  SurfaceData mesh = shapes::Grid(60, 3);
+  for (auto& p : mesh.vertices) {
+    const double angle = 3 * kPi * p[0], radius = 1 + 0.5 * p[1];
+    p = {radius * std::cos(angle), radius * std::sin(angle), 0.05 * angle};
+  }
+  DartedChart chart = Uncut(TestSurface(mesh).WholePatch());
+  chart.finished = false;
+  EXPECT_FALSE(FinishDarts(
+      Goal(1.01, 1.3, chart.patch.Diagonal()), [] {}, chart));
+  EXPECT_FALSE(chart.finished);
+  EXPECT_EQ(chart.flat.uv.rows(), 0) << "it is as it was";
 }
 
 TEST(StretchDarts, CoarserChartsOfALargeOneServeAgain) {

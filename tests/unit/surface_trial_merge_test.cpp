@@ -106,7 +106,7 @@ std::vector<double> StretchAfterCut(const TestSurface& surface, ChartIds& ids, c
   Progress progress;
   KnownFlattenings known;
   SeamMask seams;
-  ChartCutter<SurfaceMesh>(*surface, params, progress).Run(ids, seams, known);
+  ChartCutter<SurfaceMesh>(*surface, params, progress).Run(ChartsFor::kPattern, ids, seams, known);
   std::vector<double> stretch;
   FlattenOptions options;
   options.l2_bound = params.max_stretch;

@@ -5,14 +5,11 @@
 #include "common/progress.h"
 #include "common/report.h"
 #include "surface/charts.h"
+#include "surface/charts_for.h"
 #include "surface/known_flattenings.h"
 #include "surface/surface_mesh.h"
 
 namespace dcharts {
-
-/// A pattern is sewn or glued along every dart, so it gets only those that its charts need to keep within
-/// their bound.
-enum class ChartsFor { kAtlas, kPattern };
 
 /// The stages from Segment to Cut, one after the other (Section 3): `ids` and `seams` are set. They take the
 /// first `share` (0..1) of the progress. Flattenings made on the way are left in `known`.

@@ -25,9 +25,11 @@
 #include "surface/carried_map.h"
 #include "surface/chart_patch.h"
 #include "surface/charts.h"
-#include "surface/cut.h"
 #include "surface/known_flattenings.h"
 #include "surface/merge.h"
+#include "surface/needed_cuts.h"
+#include "surface/open_chart.h"
+#include "surface/patch_paths.h"
 #include "surface/rounding.h"
 #include "surface/seams.h"
 #include "surface/slits.h"
@@ -73,8 +75,7 @@ class Parameterizer {
   /// What Run does before it packs: every chart is flat without overlap. Returns, per face, u0 v0 u1 v1 u2
   /// v2, each chart in a frame of its own, at the surface's scale.
   const std::vector<std::array<double, 6>>& LayFlatApart(ChartIds& ids, SeamMask& seams) {
-    ChartCutter<MeshType> cutter(surface_, params_, progress_);
-    cutter.OpenHandles(ids, seams);
+    OpenHandles(surface_, progress_, ids, seams);
     all_disks_ = AllDisks(ids, seams);
     state_.assign(surface_.FaceCount(), State::kToFlatten);
     splits_.assign(surface_.FaceCount(), 0);
@@ -254,7 +255,7 @@ class Parameterizer {
       progress_.Log("A chart of " + std::to_string(patch.faces.size()) +
                     " faces is cut or split: " + piece.why);
     if (state_[patch.faces.front()] != State::kToBisect && LoopsOf(patch).size() > 1) {
-      ChartCutter<MeshType>(surface_, params_, progress_).Mark(patch, CutsThatJoinLoops(patch, true), seams);
+      MarkCuts(surface_, patch, CutsThatJoinLoops(patch, true), seams);
       return;
     }
     if (patch.faces.size() == 1) {  // no triangle refuses to lie flat, but one without any extent may

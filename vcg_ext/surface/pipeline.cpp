@@ -81,15 +81,6 @@ void MergeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params,
     Merger<SurfaceMesh>(surface, params, progress).Run(ids);
 }
 
-// Returns the number of darts.
-int CutCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, ChartsFor use,
-              Progress& progress, ChartIds& ids, SeamMask& seams, KnownFlattenings& known) {
-  ChartCutter<SurfaceMesh> cutter(surface, params, progress);
-  int darts = cutter.Run(ids, seams, known);
-  if (use == ChartsFor::kAtlas) darts += cutter.LowerMeanStretch(ids, seams, known);
-  return darts;
-}
-
 void FinishAtlas(Workspace& work, ChartIds& ids, SeamMask& seams, const KnownFlattenings& known,
                  const Params& params, Progress& progress, double from, SurfaceChange& change) {
   WedgeTexcoords uv;
@@ -178,7 +169,8 @@ SurfaceChange Cut(const SurfaceData& mesh, const Params& params, Progress& progr
   KnownFlattenings known;
   {
     Stage stage("cut", "Cutting darts...", 0.02, 1, progress, change.report);
-    change.report.darts = CutCharts(work.Surface(), params, ChartsFor::kAtlas, progress, ids, seams, known);
+    change.report.darts =
+        ChartCutter<SurfaceMesh>(work.Surface(), params, progress).Run(ChartsFor::kAtlas, ids, seams, known);
   }
   const SeamMask kept = work.KeptBorders();
   work.ReleaseBorders(seams);
@@ -201,7 +193,8 @@ SurfaceChange Parameterize(const SurfaceData& mesh, const Params& params, Progre
     progress.Log("No seams that fit the charts: cut as D-Charts: Cut does by default.");
     Stage stage("cut", "Cutting darts...", 0.02, 0.1, progress, change.report);
     const Params defaults;
-    change.report.darts = CutCharts(work.Surface(), defaults, ChartsFor::kAtlas, progress, ids, seams, known);
+    change.report.darts = ChartCutter<SurfaceMesh>(work.Surface(), defaults, progress)
+                              .Run(ChartsFor::kAtlas, ids, seams, known);
   }
   FinishAtlas(work, ids, seams, known, params, progress, 0.1, change);
   return change;
@@ -228,7 +221,7 @@ void MakeCharts(const SurfaceGraph<SurfaceMesh>& surface, const Params& params, 
     MergeCharts(surface, params, progress, ids, known);
   }
   Stage stage("cut", "Cutting darts...", 0.875 * share, share, progress, report);
-  report.darts = CutCharts(surface, params, use, progress, ids, seams, known);
+  report.darts = ChartCutter<SurfaceMesh>(surface, params, progress).Run(use, ids, seams, known);
 }
 
 SurfaceChange TextureAtlas(const SurfaceData& mesh, const Params& params, Progress& progress) {

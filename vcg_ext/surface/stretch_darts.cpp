@@ -1,388 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface/stretch_darts.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "common/parallel.h"
-#include "common/pi.h"
-#include "common/threads.h"
-#include "planar/coarser_charts.h"
-#include "planar/distortion.h"
 #include "planar/lay_apart.h"
 #include "planar/normalized_chart.h"
-#include "planar/overlap.h"
-#include "planar/trial_flatten.h"
-#include "surface/carried_map.h"
-#include "surface/open_chart.h"
+#include "surface/cone_point_darts.h"
+#include "surface/dart_search.h"
 #include "surface/patch_paths.h"
 
 namespace dcharts {
 namespace {
-
-// Member by member: GCC 12 destroys what a braced list has made twice when the memory ends in the midst of
-// it.
-DartedChart Uncut(ChartPatch patch) {
-  DartedChart chart;
-  chart.patch = std::move(patch);
-  return chart;
-}
-
-// Area-weighted mean of the worst stretch of the faces around each vertex.
-std::vector<double> VertexStretch(const ChartPatch& patch, const Points2& uv) {
-  std::vector<double> sum(patch.VertexCount(), 0), weight(patch.VertexCount(), 0);
-  for (int f = 0; f < static_cast<int>(patch.faces.size()); ++f) {
-    Eigen::Matrix3d corners;
-    Eigen::Matrix<double, 3, 2> flat;
-    for (int i = 0; i < 3; ++i) {
-      corners.row(i) = patch.mesh.positions.row(patch.mesh.triangles(f, i));
-      flat.row(i) = uv.row(patch.mesh.triangles(f, i));
-    }
-    const TriangleStretch stretch = StretchOfTriangle(corners, flat);
-    for (int i = 0; i < 3; ++i) {
-      sum[patch.mesh.triangles(f, i)] += stretch.surface_area * stretch.largest;
-      weight[patch.mesh.triangles(f, i)] += stretch.surface_area;
-    }
-  }
-  for (int v = 0; v < patch.VertexCount(); ++v) sum[v] = weight[v] > 0 ? sum[v] / weight[v] : 0;
-  return sum;
-}
-
-// Of a value per vertex, the mean over what is nearer than about a twentieth of the chart's width.
-std::vector<double> Smoothed(const ChartPatch& patch, std::vector<double> value) {
-  constexpr double kRoundsPerVertex = 0.005;
-  constexpr int kMostRounds = 200;
-  const int rounds = std::min(kMostRounds, static_cast<int>(kRoundsPerVertex * patch.VertexCount()));
-  std::vector<double> sum;
-  std::vector<int> faces(patch.VertexCount(), 0);
-  for (int h = 0; h < patch.HalfEdgeCount(); ++h) ++faces[patch.Vertex(h)];
-  for (int round = 0; round < rounds; ++round) {
-    sum.assign(value.size(), 0);
-    for (int f = 0; f < static_cast<int>(patch.faces.size()); ++f) {
-      const auto corner = [&](int i) { return patch.mesh.triangles(f, i); };
-      const double mean = (value[corner(0)] + value[corner(1)] + value[corner(2)]) / 3;
-      for (int i = 0; i < 3; ++i) sum[corner(i)] += mean;
-    }
-    for (size_t v = 0; v < value.size(); ++v) value[v] = sum[v] / faces[v];
-  }
-  return value;
-}
-
-bool HasFinish(const DartGoal& goal) { return std::isfinite(goal.linf_stretch); }
-
-// As the atlas will have it. `start`, `coarser`: see FlattenOptions.
-Flattening FlatWithFinish(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
-                          const Points2* start = nullptr, CoarserCharts* coarser = nullptr) {
-  FlattenOptions options;
-  options.start = start;
-  options.coarser = coarser;
-  options.l2_bound = std::max(goal.l2_stretch, goal.l2_bound);
-  return Flatten(patch.mesh, options, poll);
-}
-
-// The quick way, without the finish; `start` may be null.
-Flattening FlatWithoutFinish(const ChartPatch& patch, const Points2* start, const std::function<void()>& poll,
-                             CoarserCharts* coarser = nullptr) {
-  TrialOptions options;
-  options.coarser = coarser;
-  options.start = start;
-  TrialFlattening trial = TrialFlatten(patch.mesh, options, poll);
-  Flattening flat;
-  flat.ok = trial.ok;
-  flat.why = std::move(trial.why);
-  flat.uv = std::move(trial.uv);
-  flat.l2_stretch = trial.l2_stretch;
-  flat.linf_stretch = trial.linf_stretch;
-  return flat;
-}
-
-Flattening FlatAsAsked(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
-                       CoarserCharts* coarser = nullptr) {
-  return HasFinish(goal) ? FlatWithFinish(patch, goal, poll, nullptr, coarser)
-                         : FlatWithoutFinish(patch, nullptr, poll, coarser);
-}
-
-bool Reached(const Flattening& flat, const DartGoal& goal) {
-  return flat.l2_stretch <= goal.l2_stretch && flat.linf_stretch <= goal.linf_stretch;
-}
-
-// A dart is worth its length when the worst stretch falls by as much as this for each unit of it, or, where
-// the mean stretch is too high, when that falls by a fair share.
-constexpr double kLinfPerUnit = 1.5;
-constexpr double kShareOfL2 = 0.1;
-
-bool Helps(const Flattening& before, const Flattening& after, double length, const DartGoal& goal) {
-  if (!after.ok) return false;
-  if (before.l2_stretch > goal.l2_stretch)
-    return after.l2_stretch - 1 < (1 - kShareOfL2) * (before.l2_stretch - 1);
-  if (after.l2_stretch > goal.l2_stretch) return false;
-  return before.linf_stretch - std::max(after.linf_stretch, goal.linf_stretch) >
-         kLinfPerUnit * length / goal.unit;
-}
-
-// False when no dart as long as this helps, whatever it does.
-bool MayHelp(const Flattening& before, double length, const DartGoal& goal) {
-  return before.l2_stretch > goal.l2_stretch ||
-         before.linf_stretch - goal.linf_stretch > kLinfPerUnit * length / goal.unit;
-}
-
-// The vertices at which a chart of flat and rolled parts comes to a point; none when it is curved elsewhere,
-// or in too many places.
-std::vector<int> ConePoints(const ChartPatch& patch, const PatchPaths& paths) {
-  constexpr double kPoint = 0.02, kFlat = 1e-4;
-  constexpr size_t kMostPoints = 12;
-  std::vector<int> points;
-  const std::vector<double> angle = AngleSums(patch);
-  for (int v = 0; v < patch.VertexCount(); ++v) {
-    if (paths.OnBoundary(v)) continue;
-    const double curvature = std::abs(2 * kPi - angle[v]);
-    if (curvature > kPoint) points.push_back(v);
-    if ((curvature > kFlat && curvature <= kPoint) || points.size() > kMostPoints) return {};
-  }
-  return points;
-}
-
-size_t CountOverlaps(const DartedChart& chart, size_t most) {
-  return OverlapsInMap(chart.flat.uv, chart.patch.mesh.triangles, most).size();
-}
-
-bool Overlaps(const DartedChart& chart) { return CountOverlaps(chart, 1) > 0; }
-
-// A dart to each cone point, when the chart has no stretch at all then and that is worth the length: one by
-// one they would not lower the worst stretch.
-bool CutConePoints(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart) {
-  constexpr double kL2PerUnit = 0.005, kNoStretch = 1e-5;
-  std::vector<int> points = ConePoints(chart.patch, PatchPaths(chart.patch));
-  if (points.empty()) return false;
-  DartedChart darted = Uncut(chart.patch);
-  std::vector<int> corner_of;  // a vertex may get another number by a cut, a corner doesn't
-  for (int v : points) {
-    int h = 0;
-    while (chart.patch.Vertex(h) != v) ++h;
-    corner_of.push_back(h);
-  }
-  double total_length = 0;
-  while (!corner_of.empty()) {
-    PatchPaths paths(darted.patch);
-    paths.Run(paths.BoundaryVertices(), true);
-    const auto distance = [&](int h) { return paths.Distance(darted.patch.Vertex(h)); };
-    const auto nearest = std::min_element(corner_of.begin(), corner_of.end(),
-                                          [&](int g, int h) { return distance(g) < distance(h); });
-    const double length = distance(*nearest);
-    total_length += length;
-    if (!(length <= goal.longest)) return false;
-    const std::vector<int> cut = paths.Path(darted.patch.Vertex(*nearest));
-    darted.edges.insert(darted.edges.end(), cut.begin(), cut.end());
-    darted.count += !cut.empty();  // a dart may have run through it
-    darted.tips.push_back(*nearest);
-    darted.patch = CutOpen(darted.patch, cut);
-    corner_of.erase(nearest);
-  }
-  darted.flat = FlatWithFinish(darted.patch, goal, poll);
-  const double share = chart.patch.Area() / (goal.unit * goal.unit);
-  if (!darted.flat.ok || darted.flat.l2_stretch > 1 + kNoStretch ||
-      (chart.flat.l2_stretch - darted.flat.l2_stretch) * share < kL2PerUnit * total_length / goal.unit ||
-      Overlaps(darted))
-    return false;
-  chart = std::move(darted);
-  return true;
-}
-
-// Darts one by one, each to the place that is stretched most.
-class DartSearch {
- public:
-  DartSearch(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart)
-      : goal_(goal), poll_(poll), chart_(chart), hopeless_(chart.patch.faces.size(), 0) {}
-
-  void Run() {
-    // Trials with the finish take several times as long.
-    const int most_failures = HasFinish(goal_) ? 2 : 4;
-    for (int failures = 0;
-         chart_.count < goal_.most_darts && failures < most_failures && !Reached(chart_.flat, goal_);) {
-      PatchPaths paths(chart_.patch);
-      paths.Run(paths.BoundaryVertices(), true);
-      const std::vector<double> stretch = VertexStretch(chart_.patch, chart_.flat.uv);
-      const int worst = Worst(paths, stretch);
-      if (worst < 0) return;
-      std::vector<int> tips = Tips(paths, stretch, worst);
-      const std::vector<char> hopeless = WithAround(worst, paths);
-      // Most darts don't help: a thread without work tries where the next one goes then.
-      if (failures + 1 < most_failures && FreeThreads() >= static_cast<int>(tips.size())) {
-        std::vector<char> now = hopeless;
-        hopeless_.swap(now);
-        const int next = Worst(paths, stretch);
-        if (next >= 0) TryAll(paths, Joined(tips, Tips(paths, stretch, next)));
-        hopeless_.swap(now);
-      }
-      TryThoseThatMayWin(paths, tips);
-      if (CutBest(paths, tips)) continue;
-      ++failures;
-      hopeless_ = hopeless;
-    }
-  }
-
- private:
-  // A corner at the vertex of the largest value of those that a dart may go to; -1 when there is none.
-  template <class Value>
-  int Best(const PatchPaths& paths, const Value& value) const {
-    int best = -1;
-    for (int h = 0; h < chart_.patch.HalfEdgeCount(); ++h) {
-      const int v = chart_.patch.Vertex(h);
-      if (hopeless_[h / 3] || paths.OnBoundary(v) || !(paths.Distance(v) <= goal_.longest)) continue;
-      if (best < 0 || value(v) > value(chart_.patch.Vertex(best))) best = h;
-    }
-    return best;
-  }
-
-  int Worst(const PatchPaths& paths, const std::vector<double>& stretch) const {
-    return Best(paths, [&](int v) { return stretch[v]; });
-  }
-
-  // Where darts may go instead of the worst corner, too.
-  std::vector<int> Tips(const PatchPaths& paths, const std::vector<double>& stretch, int worst) const {
-    // A dart relieves a disk as wide as it is long, so the mean stretch around its tip counts for more than
-    // that at it. A round chart is stretched most at its rim, and yet a cut to its middle may relieve it
-    // more.
-    if (chart_.flat.l2_stretch <= goal_.l2_stretch) return {worst};
-    const std::vector<double> around = Smoothed(chart_.patch, stretch);
-    std::vector<int> tips{worst};
-    for (int tip : {Best(paths, [&](int v) { return around[v]; }),
-                    Best(paths, [&](int v) { return paths.Distance(v); })})
-      if (!IsNearOneOf(paths, tips, tip)) tips.push_back(tip);
-    return tips;
-  }
-
-  // A dart to a place near the end of another one does about the same.
-  bool IsNearOneOf(const PatchPaths& paths, const std::vector<int>& tips, int tip) const {
-    constexpr double kNear = 0.1;  // of its length
-    const Points3& at = chart_.patch.mesh.positions;
-    const auto place = [&](int corner) { return at.row(chart_.patch.Vertex(corner)); };
-    return std::any_of(tips.begin(), tips.end(), [&](int other) {
-      return (place(tip) - place(other)).norm() <= kNear * Length(paths, tip);
-    });
-  }
-
-  // Each once.
-  static std::vector<int> Joined(std::vector<int> some, const std::vector<int>& others) {
-    for (int tip : others)
-      if (std::find(some.begin(), some.end(), tip) == some.end()) some.push_back(tip);
-    return some;
-  }
-
-  double Length(const PatchPaths& paths, int tip) const { return paths.Distance(chart_.patch.Vertex(tip)); }
-
-  // What a dart brings. By its length alone, many small ones would come before the one that does the work.
-  double Gain(double l2_stretch, double length) const {
-    return (chart_.flat.l2_stretch - std::max(l2_stretch, goal_.l2_stretch)) / std::sqrt(length);
-  }
-
-  // Makes the trials that have not been made, the shortest first, but for those that can't win any more.
-  void TryThoseThatMayWin(const PatchPaths& paths, std::vector<int> tips) {
-    std::stable_sort(tips.begin(), tips.end(),
-                     [&](int a, int b) { return Length(paths, a) < Length(paths, b); });
-    double best = -std::numeric_limits<double>::infinity();
-    for (size_t k = 0; k < tips.size();) {
-      std::vector<int> some;
-      for (; k < tips.size() && some.size() <= static_cast<size_t>(FreeThreads()); ++k)
-        if (!(Gain(goal_.l2_stretch, Length(paths, tips[k])) < best)) some.push_back(tips[k]);
-      TryAll(paths, some);
-      for (int tip : some)
-        if (const DartedChart& trial = trials_.at(tip); trial.count > 0)
-          best = std::max(best, Gain(trial.flat.l2_stretch, Length(paths, tip)));
-    }
-  }
-
-  // Makes the trials that have not been made.
-  void TryAll(const PatchPaths& paths, std::vector<int> tips) {
-    for (int tip : tips)
-      if (!MayHelp(chart_.flat, Length(paths, tip), goal_)) trials_.emplace(tip, DartedChart());
-    tips.erase(std::remove_if(tips.begin(), tips.end(), [&](int tip) { return trials_.count(tip) > 0; }),
-               tips.end());
-    if (tips.empty()) return;
-    // Most darts don't help, which shows in a map without the finish, made from the one the chart has.
-    if (!plain_) {
-      plain_ = HasFinish(goal_) ? FlatWithoutFinish(chart_.patch, &chart_.flat.uv, poll_) : chart_.flat;
-    }
-    std::vector<DartedChart> made(tips.size());
-    InParallel(static_cast<int>(tips.size()), poll_, [&](int k, const std::function<void()>& poll) {
-      const int v = chart_.patch.Vertex(tips[k]);
-      if (!Try(tips[k], paths.Path(v), Length(paths, tips[k]), poll, made[k])) made[k] = {};
-    });
-    for (size_t k = 0; k < tips.size(); ++k) trials_.emplace(tips[k], std::move(made[k]));
-  }
-
-  // Cuts the best dart to one of the tips that have been tried, if any helps.
-  bool CutBest(const PatchPaths& paths, const std::vector<int>& tips) {
-    double best_gain = -1;
-    DartedChart best;
-    for (int tip : tips) {
-      const auto found = trials_.find(tip);
-      if (found == trials_.end() || found->second.count == 0) continue;
-      DartedChart& trial = found->second;
-      const double gain = Gain(trial.flat.l2_stretch, Length(paths, tip));
-      if (best.count > 0 && gain <= best_gain) continue;
-      best_gain = gain;
-      best = std::move(trial);
-    }
-    if (best.count == 0) return false;
-    best.edges.insert(best.edges.begin(), chart_.edges.begin(), chart_.edges.end());
-    best.tips.insert(best.tips.begin(), chart_.tips.begin(), chart_.tips.end());
-    best.count += chart_.count;
-    best.l2_uncut = chart_.l2_uncut;
-    chart_ = std::move(best);
-    plain_.reset();
-    trials_.clear();
-    return true;
-  }
-
-  // One more dart; false when it doesn't help.
-  bool Try(int tip, const std::vector<int>& cut, double length, const std::function<void()>& poll,
-           DartedChart& trial) const {
-    trial = Uncut(CutOpen(chart_.patch, cut));
-    trial.edges = cut;
-    trial.count = 1;
-    trial.tips.push_back(tip);
-    const Points2 start = CarriedMap(chart_.patch, plain_->ok ? plain_->uv : chart_.flat.uv, trial.patch);
-    trial.flat = FlatWithoutFinish(trial.patch, &start, poll);
-    DartGoal goal = goal_;
-    if (chart_.flat.l2_stretch <= goal.l2_stretch)  // though not quite by the quick map
-      goal.l2_stretch = std::max(goal.l2_stretch, plain_->l2_stretch);
-    if (!Helps(*plain_, trial.flat, length, goal)) return false;
-    if (!HasFinish(goal_)) {
-      // What laps over a little may not do so with the finish.
-      constexpr size_t kLittle = 20;
-      const size_t overlaps = CountOverlaps(trial, kLittle);
-      if (overlaps == 0) return true;
-      if (overlaps == kLittle) return false;
-    }
-    // Parameterize has no start: the atlas's map must not have one.
-    trial.flat = FlatWithFinish(trial.patch, goal_, poll, HasFinish(goal_) ? nullptr : &trial.flat.uv);
-    return Helps(chart_.flat, trial.flat, length, goal_) && !Overlaps(trial);
-  }
-
-  // The faces without hope once a dart to this corner is of no use: no darts to anywhere near.
-  std::vector<char> WithAround(int corner, const PatchPaths& paths) const {
-    const double distance = paths.Distance(chart_.patch.Vertex(corner));
-    std::vector<char> hopeless = hopeless_;
-    PatchPaths around(chart_.patch);
-    around.Run({chart_.patch.Vertex(corner)}, false);
-    for (int h = 0; h < chart_.patch.HalfEdgeCount(); ++h)
-      if (around.Distance(chart_.patch.Vertex(h)) <= distance) hopeless[h / 3] = 1;
-    return hopeless;
-  }
-
-  const DartGoal& goal_;
-  const std::function<void()>& poll_;
-  DartedChart& chart_;
-  std::optional<Flattening> plain_;    // of the chart as it is now, without the finish
-  std::map<int, DartedChart> trials_;  // of the chart as it is now, by tip; without darts where none helps
-  std::vector<char> hopeless_;         // faces
-};
 
 // Of a chart that laps over itself a little.
 bool DrawApart(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart) {
@@ -395,28 +26,22 @@ bool DrawApart(const DartGoal& goal, const std::function<void()>& poll, DartedCh
   return true;
 }
 
+// The same without a bound on the worst stretch.
+DartGoal ForMeanStretch(DartGoal goal) {
+  goal.linf_stretch = std::numeric_limits<double>::infinity();
+  return goal;
+}
+
 // What CutStretchDarts makes of it when only the mean stretch counts, or as far as it comes.
 DartedChart CutForMeanStretchAlone(const DartGoal& goal, const std::function<void()>& poll,
                                    const ChartPatch& patch, const Flattening* known) {
-  DartGoal mean = goal;
-  mean.linf_stretch = std::numeric_limits<double>::infinity();
   DartedChart darted = Uncut(patch);
   // From no start where none is known: from that of the finish the search would not end at the darts that a
   // trial of the chart has shown.
   darted.flat = FlatWithoutFinish(patch, known ? &known->uv : nullptr, poll);
-  DartSearch(mean, poll, darted).Run();
+  SearchDarts(ForMeanStretch(goal), poll, darted);
+  darted.finished = false;
   return darted;
-}
-
-// Darts that bring the L2 stretch within a goal with finish, whatever becomes of the worst stretch; returns
-// whether it is.
-bool CutForMeanStretch(const DartGoal& goal, const std::function<void()>& poll, DartedChart darted,
-                       DartedChart& chart) {
-  if (darted.count == 0) return false;
-  darted.flat = FlatWithFinish(darted.patch, goal, poll);
-  if (!darted.flat.ok || (Overlaps(darted) && !DrawApart(goal, poll, darted))) return false;
-  chart = std::move(darted);
-  return chart.flat.l2_stretch <= goal.l2_stretch;
 }
 
 // Whether the chart is above the goal when it is flattened as well as that goes, which a quick map that is
@@ -477,25 +102,67 @@ DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const s
 
 }  // namespace
 
-DartedChart CutStretchDarts(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
-                            const KnownOfChart& known) {
+DartedChart CutMeanDarts(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
+                         const KnownOfChart& known) {
   if (IsLargeChart(patch.mesh)) return CutLargeChart(patch, goal, poll, known);
-  DartedChart chart = Uncut(patch);
   // A chart that needs them is not finished without.
-  if (known.mean_darts && HasFinish(goal) && ConePoints(patch, PatchPaths(patch)).empty() &&
-      IsAbove(goal, poll, patch, known.mean_darts->l2_uncut) &&
-      CutForMeanStretch(goal, poll, *known.mean_darts, chart)) {
-    DartSearch(goal, poll, chart).Run();
+  if (known.mean_darts && HasFinish(goal) && !HasConePoints(patch) &&
+      IsAbove(goal, poll, patch, known.mean_darts->l2_uncut)) {
+    DartedChart chart = *known.mean_darts;
+    chart.finished = false;
     return chart;
   }
-  chart = Uncut(patch);
+  DartedChart chart = Uncut(patch);
   chart.flat = known.flat ? *known.flat : FlatAsAsked(patch, goal, poll);
   chart.l2_uncut = chart.flat.l2_stretch;
   if (!chart.flat.ok || CutConePoints(goal, poll, chart)) return chart;
-  if (HasFinish(goal) && chart.flat.l2_stretch > goal.l2_stretch &&
-      !CutForMeanStretch(goal, poll, CutForMeanStretchAlone(goal, poll, patch, known.flat), chart))
+  if (HasFinish(goal) && chart.flat.l2_stretch > goal.l2_stretch) {
+    DartedChart darted = CutForMeanStretchAlone(goal, poll, patch, known.flat);
+    const bool within = darted.flat.ok && darted.flat.l2_stretch <= goal.l2_stretch;
+    // What a quick map doesn't reach, the atlas's may.
+    if (darted.count > 0 && (within || FinishDarts(goal, poll, darted))) return darted;
     return chart;
-  DartSearch(goal, poll, chart).Run();
+  }
+  SearchDarts(goal, poll, chart);
+  return chart;
+}
+
+bool AddMeanDarts(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart) {
+  DartedChart darted = chart;
+  if (IsLargeChart(chart.patch.mesh)) {
+    DartedChart more = CutLargeChart(chart.patch, goal, poll, {&chart.flat, nullptr, chart.coarser});
+    more.edges.insert(more.edges.begin(), chart.edges.begin(), chart.edges.end());
+    more.tips.insert(more.tips.begin(), chart.tips.begin(), chart.tips.end());
+    more.count += chart.count;
+    darted = std::move(more);
+  } else {
+    if (darted.finished) darted.flat = FlatWithoutFinish(darted.patch, &chart.flat.uv, poll);
+    SearchDarts(ForMeanStretch(goal), poll, darted);
+    darted.finished = false;
+  }
+  if (darted.count == chart.count || !darted.flat.ok || !(darted.flat.l2_stretch < chart.flat.l2_stretch))
+    return false;
+  chart = std::move(darted);
+  return true;
+}
+
+bool FinishDarts(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart) {
+  DartedChart finished = chart;
+  finished.flat = FlatWithFinish(finished.patch, goal, poll);
+  if (!finished.flat.ok || (Overlaps(finished) && !DrawApart(goal, poll, finished))) return false;
+  finished.finished = true;
+  if (finished.flat.l2_stretch <= goal.l2_stretch) SearchDarts(goal, poll, finished);
+  chart = std::move(finished);
+  return true;
+}
+
+DartedChart CutStretchDarts(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
+                            const KnownOfChart& known) {
+  DartedChart chart = CutMeanDarts(patch, goal, poll, known);
+  if (chart.finished || FinishDarts(goal, poll, chart)) return chart;
+  chart = Uncut(patch);
+  chart.flat = known.flat ? *known.flat : FlatAsAsked(patch, goal, poll);
+  chart.l2_uncut = chart.flat.l2_stretch;
   return chart;
 }
 

@@ -3,38 +3,13 @@
 
 #include <functional>
 #include <memory>
-#include <vector>
 
 #include "planar/coarser_charts.h"
 #include "planar/flatten.h"
 #include "surface/chart_patch.h"
+#include "surface/darted_chart.h"
 
 namespace dcharts {
-
-/// What darts are to reach.
-struct DartGoal {
-  double l2_stretch = 1;    ///< of the chart at its own scale
-  double linf_stretch = 1;  ///< the same
-  double l2_bound =
-      1;               ///< what lowering the worst stretch may raise the L2 stretch to, if above `l2_stretch`
-  double longest = 0;  ///< bound on a dart's length, model units
-  int most_darts = 12;
-  /// A large chart that a coarser one shows to stay above `l2_stretch` may be left unflattened.
-  bool may_give_up = false;
-  double unit =
-      1;  ///< the length of dart for which the Linf stretch has to fall by kLinfPerUnit, model units
-};
-
-/// A chart with its darts, flattened.
-struct DartedChart {
-  std::vector<int> edges;  ///< half-edges of the patch to cut, one per edge
-  int count = 0;           ///< darts
-  std::vector<int> tips;   ///< of each cut, a half-edge of the patch that starts where it ends; in order
-  ChartPatch patch;        ///< cut open
-  Flattening flat;         ///< of `patch`
-  std::shared_ptr<CoarserCharts> coarser;  ///< those of `patch`, when it is a large chart
-  double l2_uncut = 1;                     ///< the L2 stretch before, by a quick map
-};
 
 /// What is known of a chart before darts are looked for: it saves time and changes nothing. All may be null.
 struct KnownOfChart {
@@ -52,5 +27,19 @@ struct KnownOfChart {
 /// can be flattened. `poll` may throw to stop the work.
 DartedChart CutStretchDarts(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
                             const KnownOfChart& known = {});
+
+/// The first half of it, for those who may want more darts before the finish, which takes as long as all
+/// else: where the mean stretch needs darts and these bring a quick map within the goal, these alone;
+/// `finished` is false then. All other charts are as CutStretchDarts makes them.
+DartedChart CutMeanDarts(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
+                         const KnownOfChart& known = {});
+
+/// More darts, for the mean stretch alone. False when there are none that lower it; else a chart that isn't
+/// large has to be finished again.
+bool AddMeanDarts(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart);
+
+/// The other half: flattens a chart with darts and cuts those that its worst stretch needs. False, and the
+/// chart is as it was, when it overlaps itself then; it may be above the goal.
+bool FinishDarts(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart);
 
 }  // namespace dcharts

@@ -113,7 +113,7 @@ bool MakeChartsSymmetric(const Surface& surface, const MirroredHalves& halves, c
   HalfCharts(surface, halves, keep_first, looser.StretchBound(), progress).Run(mirrored);
   SeamMask cut_seams;
   KnownFlattenings known;
-  ChartCutter<SurfaceMesh>(surface, looser, progress).Run(mirrored, cut_seams, known);
+  ChartCutter<SurfaceMesh>(surface, looser, progress).Run(ChartsFor::kPattern, mirrored, cut_seams, known);
   // What was cut, too, is that of one half.
   const int count = ChartCount(mirrored);
   for (int f = 0; f < surface.FaceCount(); ++f) {

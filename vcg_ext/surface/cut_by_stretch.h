@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/parallel.h"
+#include "common/params.h"
+#include "common/progress.h"
+#include "surface/chart_patch.h"
+#include "surface/charts.h"
+#include "surface/charts_for.h"
+#include "surface/known_flattenings.h"
+#include "surface/needed_cuts.h"
+#include "surface/open_chart.h"
+#include "surface/split_chart.h"
+#include "surface/stretch_darts.h"
+
+namespace dcharts {
+
+/// Darts where flattened charts are stretched; a chart that is above params.max_stretch all the same is
+/// parted, unless a number of charts is asked for.
+template <class MeshType>
+class StretchCutter {
+ public:
+  StretchCutter(const SurfaceGraph<MeshType>& surface, const Params& params, Progress& progress)
+      : surface_(surface), params_(params), progress_(progress) {}
+
+  /// Without a number of charts to keep to, a chart above the bound on its stretch is parted.
+  bool MayPart() const { return params_.max_stretch > 0 && params_.target_charts == 0; }
+
+  /// `seams` must be those that ChartCutter makes before darts; ids and seams change. Returns the number of
+  /// darts. `known`: what Merge has left there; flattenings are added.
+  int Run(ChartsFor use, ChartIds& ids, SeamMask& seams, KnownFlattenings& known) {
+    const bool by_stretch = params_.dart_by == DartMethod::kMeasuredStretch;
+    done_.assign(surface_.FaceCount(), 0);
+    bool lower_mean = use == ChartsFor::kAtlas && by_stretch && MayPart();
+    for (bool again = true; again; lower_mean = false) {
+      CutOthers(lower_mean, known, ids, seams);
+      if (lower_mean) LowerMeanStretch();
+      again = FinishAll(ids, seams);
+    }
+    int count = 0, above = 0;
+    for (Cut& cut : cuts_) {
+      DartedChart& chart = cut.chart;
+      count += chart.count;
+      above += !IsGood(chart);
+      MarkCuts(surface_, chart.patch, chart.edges, seams);
+      if (chart.flat.ok) known.Add(chart.patch, std::move(chart.flat), std::move(chart.coarser));
+    }
+    if (above > 0 && params_.target_charts > 0)
+      progress_.Log(std::to_string(above) +
+                    " charts exceed max_stretch: the number of charts asked for goes before it.");
+    return count;
+  }
+
+ private:
+  struct Cut {
+    DartedChart chart;
+    DartGoal goal;
+    std::optional<DartedChart> without;  // the darts that were added to lower the mean stretch
+  };
+
+  // All charts that are not done yet. With `mean_only`, those that need darts for the mean stretch get these
+  // only.
+  void CutOthers(bool mean_only, const KnownFlattenings& known, ChartIds& ids, SeamMask& seams) {
+    for (bool again = true; again;) {
+      again = false;
+      std::vector<Cut> cuts;
+      PatchExtractor<MeshType> extractor(surface_, seams);
+      for (const auto& faces : FacesOfCharts(ids)) {
+        if (done_[faces.front()]) continue;
+        DartedChart chart = Uncut(extractor.Extract(faces));
+        const DartGoal goal = GoalOf(chart.patch, params_.StretchBound());
+        cuts.push_back({std::move(chart), goal, std::nullopt});
+      }
+      ParallelForLargestFirst(
+          static_cast<int>(cuts.size()), progress_, [&](int k) { return cuts[k].chart.patch.faces.size(); },
+          [&](int k, const std::function<void()>& poll) {
+            const auto& [chart, goal, without] = cuts[k];
+            cuts[k].chart = (mean_only ? CutMeanDarts : CutStretchDarts)(chart.patch, goal, poll,
+                                                                         known.Of(chart.patch, goal));
+          });
+      int next_id = ChartCount(ids);
+      for (Cut& cut : cuts) {
+        const DartedChart& chart = cut.chart;
+        if (!IsGood(chart) && Divide(extractor.Extract(chart.patch.faces), next_id, ids, seams)) {
+          again = true;
+          continue;
+        }
+        for (int f : chart.patch.faces) done_[f] = 1;
+        MarkCuts(surface_, chart.patch, chart.edges, seams);
+        cuts_.push_back(std::move(cut));
+      }
+      if (again) Mend(ids, seams);
+    }
+  }
+
+  // How near charts come to their bound is a matter of chance. Where the mean L2 stretch of the whole is
+  // above halfway to it, the charts that are stretched most get more darts, until it no longer is or none
+  // helps.
+  void LowerMeanStretch() {
+    const double halfway = 1 + (params_.StretchBound() - 1) / 2;
+    std::vector<std::pair<double, int>> charts;  // L2 stretch, index
+    double excess = 0;                           // of the mean stretch over `halfway`, times the area
+    for (int k = 0; k < static_cast<int>(cuts_.size()); ++k) {
+      const DartedChart& chart = cuts_[k].chart;
+      if (!chart.flat.ok) return;
+      excess += chart.patch.Area() * (chart.flat.l2_stretch - halfway);
+      if (chart.flat.l2_stretch > halfway) charts.push_back({chart.flat.l2_stretch, k});
+    }
+    std::stable_sort(charts.begin(), charts.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    constexpr int kMostFailures = 12;
+    int failures = 0;
+    for (size_t n = 0; n < charts.size() && excess > 0 && failures < kMostFailures; ++n) {
+      progress_.Poll();
+      const auto& [before, k] = charts[n];
+      Cut& cut = cuts_[k];
+      DartGoal goal = GoalOf(cut.chart.patch, halfway);
+      goal.may_give_up = false;
+      DartedChart darted = cut.chart;
+      if (!AddMeanDarts(
+              goal, [this] { progress_.Poll(); }, darted)) {
+        ++failures;
+        continue;
+      }
+      excess += darted.patch.Area() * (darted.flat.l2_stretch - before);
+      cut = {std::move(darted), goal, std::move(cut.chart)};
+    }
+  }
+
+  // Finishes all that are not; those that can't be are divided. Returns whether there were such.
+  bool FinishAll(ChartIds& ids, SeamMask& seams) {
+    std::vector<int> open;
+    for (int k = 0; k < static_cast<int>(cuts_.size()); ++k)
+      if (!cuts_[k].chart.finished) open.push_back(k);
+    std::vector<char> failed(cuts_.size(), 0);
+    ParallelForLargestFirst(
+        static_cast<int>(open.size()), progress_,
+        [&](int k) { return cuts_[open[k]].chart.patch.faces.size(); },
+        [&](int k, const std::function<void()>& poll) { failed[open[k]] = !Finish(cuts_[open[k]], poll); });
+    std::vector<Cut> finished;
+    int next_id = ChartCount(ids);
+    for (size_t k = 0; k < cuts_.size(); ++k) {
+      if (!failed[k]) {
+        finished.push_back(std::move(cuts_[k]));
+        continue;
+      }
+      const DartedChart& chart = cuts_[k].chart;
+      for (int h : chart.edges) {
+        const int s = chart.patch.SurfaceHalfEdge(h);
+        ClearSeam(seams, s);
+        ClearSeam(seams, surface_.Opposite(s));
+      }
+      for (int f : chart.patch.faces) done_[f] = 0;
+      Divide(PatchExtractor<MeshType>(surface_, seams).Extract(chart.patch.faces), next_id, ids, seams);
+    }
+    const bool any = finished.size() < cuts_.size();
+    cuts_ = std::move(finished);
+    if (any) Mend(ids, seams);
+    return any;
+  }
+
+  // False when it isn't within the bound then; without the last darts it was.
+  bool Finish(Cut& cut, const std::function<void()>& poll) const {
+    if (FinishDarts(cut.goal, poll, cut.chart) && IsGood(cut.chart)) return true;
+    if (!cut.without) return false;
+    cut.chart = std::move(*cut.without);
+    cut.goal = GoalOf(cut.chart.patch, params_.StretchBound());
+    return cut.chart.finished || (FinishDarts(cut.goal, poll, cut.chart) && IsGood(cut.chart));
+  }
+
+  bool IsGood(const DartedChart& chart) const {
+    return chart.flat.ok && chart.flat.l2_stretch <= params_.StretchBound();
+  }
+
+  // Cuts or parts a chart that is stretched too much; false when that can't be or may not be.
+  bool Divide(const ChartPatch& whole, int& next_id, ChartIds& ids, SeamMask& seams) {
+    // A loop that was left uncut may be why it is.
+    const std::vector<int> cuts = CutsThatJoinLoops(whole, true);
+    MarkCuts(surface_, whole, cuts, seams);
+    if (!cuts.empty()) return true;
+    if (!MayPart() || whole.faces.size() == 1) return false;
+    PartChart(whole, Bisect(whole, [this] { progress_.Poll(); }), next_id++, ids, seams);
+    return true;
+  }
+
+  // After charts were divided.
+  void Mend(ChartIds& ids, SeamMask& seams) {
+    SplitAndCompact(surface_, ids, &seams);
+    JoinLoops(surface_, params_, progress_, ids, seams);
+  }
+
+  DartGoal GoalOf(const ChartPatch& patch, double bound) const {
+    constexpr double kWorstStretch = 1.3;
+    DartGoal goal;
+    goal.l2_stretch = bound;
+    goal.l2_bound = params_.StretchBound();
+    goal.linf_stretch = kWorstStretch;
+    if (params_.dart_by == DartMethod::kMeasuredStretch)
+      goal.longest = params_.max_dart_percent / 100 * patch.Diagonal();
+    goal.unit = std::sqrt(surface_.TotalArea());
+    goal.may_give_up = MayPart();
+    return goal;
+  }
+
+  const SurfaceGraph<MeshType>& surface_;
+  const Params& params_;
+  Progress& progress_;
+  std::vector<char> done_;  // faces
+  std::vector<Cut> cuts_;   // all charts that are done, but perhaps for the finish
+};
+
+}  // namespace dcharts
