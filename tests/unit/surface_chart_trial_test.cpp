@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "common/pi.h"
+#include "surface/known_trials.h"
 #include "surface/patch_paths.h"
 #include "surface_fixture.h"
 
@@ -59,6 +60,33 @@ TEST(ChartTrial, TheBoundDecides) {
   EXPECT_GT(free.energy, 0);
   EXPECT_TRUE(Trial(surface, free.stretch + 1e-6).flat);
   EXPECT_FALSE(Trial(surface, 1 + (free.stretch - 1) / 2).flat);
+}
+
+// KnownTrials relies on it.
+TEST(ChartTrial, ABoundThatHoldsChangesNothing) {
+  const TestSurface surface(shapes::SphericalCap(10, 1.1));
+  const ChartPatch patch = surface.WholePatch();
+  const TrialFlattening free = TrialFlatten(patch.mesh);
+  for (double more : {1e-9, 0.01, 1.0}) {
+    TrialFlattening map;
+    EXPECT_TRUE(TryChart(
+                    patch, free.l2_stretch + more, [] {}, &map)
+                    .flat);
+    EXPECT_EQ(map.uv, free.uv) << more;
+    EXPECT_EQ(map.energy, free.energy);
+    KnownTrials known;
+    known.Add(patch.faces, map);
+    ASSERT_NE(known.Find(patch.faces), nullptr);
+    EXPECT_EQ(known.Find(patch.faces)->uv, free.uv);
+    EXPECT_EQ(known.Find({patch.faces.begin(), patch.faces.end() - 1}), nullptr);
+  }
+  TrialFlattening map;
+  EXPECT_FALSE(TryChart(
+                   patch, 1 + (free.l2_stretch - 1) / 2, [] {}, &map)
+                   .flat);
+  KnownTrials known;
+  known.Add(patch.faces, map);
+  EXPECT_EQ(known.Find(patch.faces), nullptr) << "it was given up";
 }
 
 TEST(ChartTrial, ALargerCapCostsMore) {

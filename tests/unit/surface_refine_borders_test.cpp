@@ -15,9 +15,10 @@ namespace {
 
 using test::TestSurface;
 
-ChartIds Refined(const TestSurface& surface, ChartIds ids, const Params& params = {}) {
+ChartIds Refined(const TestSurface& surface, ChartIds ids, const Params& params = {},
+                 const KnownTrials& known = {}) {
   Progress progress;
-  BorderRefiner<SurfaceMesh>(*surface, params, progress).Run(ids);
+  BorderRefiner<SurfaceMesh>(*surface, params, progress).Run(known, ids);
   return ids;
 }
 
@@ -55,6 +56,24 @@ TEST(RefineBorders, ARaggedBorderOnAPlaneBecomesShort) {
   });
   ASSERT_GT(Seams(surface, ragged), 1.5);
   EXPECT_LT(Seams(surface, Refined(surface, ragged)), 1.2);
+}
+
+TEST(RefineBorders, KnownTrialsAreTaken) {
+  const TestSurface surface(shapes::Grid(20, 20));
+  const ChartIds ragged = surface.Paint([](const auto& p) { return p[0] < 0.4 + 0.2 * p[1] ? 0 : 1; });
+  const SeamMask none(surface->FaceCount(), 0);
+  KnownTrials right, wrong;
+  for (int c : {0, 1}) {
+    const ChartPatch patch = surface.Patch(ragged, none, c);
+    TrialFlattening flat = TrialFlatten(patch.mesh);
+    right.Add(patch.faces, flat);
+    flat.l2_stretch = 2;
+    wrong.Add(patch.faces, flat);
+  }
+  const ChartIds refined = Refined(surface, ragged);
+  EXPECT_NE(refined, ragged);
+  EXPECT_EQ(Refined(surface, ragged, {}, right), refined);
+  EXPECT_EQ(Refined(surface, ragged, {}, wrong), ragged) << "charts above max_stretch keep their borders";
 }
 
 // A cube's sides cut off beside the crease: the seam finds the crease.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "planar/trial_flatten.h"
 #include "surface/chart_patch.h"
 
 namespace dcharts {
@@ -22,8 +23,10 @@ struct ChartTrial {
 ChartPatch Opened(const ChartPatch& patch, double& cut_length);
 
 /// Opens the patch and flattens it with least stretch, whatever method the atlas will have. Is not flat when
-/// the L2 stretch is sure to stay above `bound`. `poll` may throw to stop the work.
-ChartTrial TryChart(const ChartPatch& patch, double bound, const std::function<void()>& poll);
+/// the L2 stretch is sure to stay above `bound`. `poll` may throw to stop the work. `map`, if not null, is
+/// set to that of the opened patch.
+ChartTrial TryChart(const ChartPatch& patch, double bound, const std::function<void()>& poll,
+                    TrialFlattening* map = nullptr);
 
 /// The same, but whether it overlaps itself is not asked.
 ChartTrial TryChartWithOverlaps(const ChartPatch& patch, double bound, const std::function<void()>& poll);

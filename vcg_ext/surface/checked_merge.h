@@ -181,6 +181,7 @@ class CheckedMerger {
     }
     constexpr size_t kMostOverlaps = 1000;
     std::vector<char> fits(patches.size());
+    std::vector<TrialFlattening> flat(patches.size());
     std::vector<std::vector<std::pair<int, int>>> overlaps(patches.size());
     ParallelForLargestFirst(
         static_cast<int>(patches.size()), groups_.progress, [&](int k) { return patches[k].faces.size(); },
@@ -189,15 +190,16 @@ class CheckedMerger {
           const ChartPatch open = Opened(patches[k], cut_length);
           TrialOptions options;
           options.l2_bound = groups_.bound;
-          const TrialFlattening flat = TrialFlatten(open.mesh, options, poll);
-          if (flat.ok) overlaps[k] = OverlapsInMap(flat.uv, open.mesh.triangles, kMostOverlaps);
-          fits[k] = flat.ok && overlaps[k].empty();
+          flat[k] = TrialFlatten(open.mesh, options, poll);
+          if (flat[k].ok) overlaps[k] = OverlapsInMap(flat[k].uv, open.mesh.triangles, kMostOverlaps);
+          fits[k] = flat[k].ok && overlaps[k].empty();
         });
     std::vector<Failure> failures;
     for (size_t k = 0; k < unverified.size(); ++k) {
       groups_.charts[unverified[k]].verified = fits[k];
       if (fits[k]) {
         fitting_.insert({groups_.bound, groups_.charts[unverified[k]].parts});
+        groups_.fine_trials.Add(patches[k].faces, std::move(flat[k]));
         continue;
       }
       failures.push_back({unverified[k], {}});
@@ -310,15 +312,21 @@ class CheckedMerger {
     const double longest =
         one.borders.at(b) * groups_.parts.Unit() + one.trial.cut_length + other.trial.cut_length;
     for (const bool coarse : {true, false}) {
-      const ChartPatch open =
-          Opened(coarse ? groups_.parts.CoarsePatch(both) : groups_.parts.FinePatch(both), cut_length);
+      const ChartPatch whole = coarse ? groups_.parts.CoarsePatch(both) : groups_.parts.FinePatch(both);
+      const ChartPatch open = Opened(whole, cut_length);
       DartGoal goal;
       goal.l2_stretch = coarse ? groups_.CoarseBound() : groups_.bound;
       goal.linf_stretch = kNoBound;
       goal.most_darts = effort == Effort::kMost ? kManyDarts : kFewDarts;
       goal.longest = groups_.params.max_dart_percent / 100 * open.Diagonal();
       // No bound on the length here: Cut has none and is to find the same darts.
-      DartedChart darted = CutStretchDarts(open, goal, groups_.Poll());
+      KnownOfChart uncut;
+      Flattening flat;
+      if (!coarse && !IsLargeChart(open.mesh)) {
+        flat = FlatOf(FineTrial(whole, open));
+        uncut.flat = &flat;
+      }
+      DartedChart darted = CutStretchDarts(open, goal, groups_.Poll(), uncut);
       for (int h : darted.edges) cut_length += open.Length(h);
       constexpr double kRounding = 1e-6;  // darts to the corners of a box may be just as long as its rim
       if (cut_length > (1 + kRounding) * longest) return false;
@@ -330,6 +338,14 @@ class CheckedMerger {
       if (!coarse && known_) known_->AddDarts(open, goal, std::move(darted));
     }
     return true;
+  }
+
+  // Made once: BorderRefiner begins with it too.
+  TrialFlattening FineTrial(const ChartPatch& whole, const ChartPatch& open) {
+    if (const TrialFlattening* known = groups_.fine_trials.Find(whole.faces)) return *known;
+    TrialFlattening trial = TrialFlatten(open.mesh, {}, groups_.Poll());
+    groups_.fine_trials.Add(whole.faces, trial);
+    return trial;
   }
 
   ChartGroups<MeshType>& groups_;

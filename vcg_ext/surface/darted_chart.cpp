@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "planar/overlap.h"
-#include "planar/trial_flatten.h"
 
 namespace dcharts {
 
@@ -44,7 +43,10 @@ Flattening FlatWithoutFinish(const ChartPatch& patch, const Points2* start, cons
   TrialOptions options;
   options.coarser = coarser;
   options.start = start;
-  TrialFlattening trial = TrialFlatten(patch.mesh, options, poll);
+  return FlatOf(TrialFlatten(patch.mesh, options, poll));
+}
+
+Flattening FlatOf(TrialFlattening trial) {
   Flattening flat;
   flat.ok = trial.ok;
   flat.why = std::move(trial.why);

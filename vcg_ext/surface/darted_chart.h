@@ -8,6 +8,7 @@
 
 #include "planar/coarser_charts.h"
 #include "planar/flatten.h"
+#include "planar/trial_flatten.h"
 #include "surface/chart_patch.h"
 
 namespace dcharts {
@@ -55,6 +56,8 @@ Flattening FlatWithFinish(const ChartPatch& patch, const DartGoal& goal, const s
 /// The quick way, without the finish; `start` may be null.
 Flattening FlatWithoutFinish(const ChartPatch& patch, const Points2* start, const std::function<void()>& poll,
                              CoarserCharts* coarser = nullptr);
+/// The same of a trial that was made before.
+Flattening FlatOf(TrialFlattening trial);
 /// With the finish if the goal has it.
 Flattening FlatAsAsked(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
                        CoarserCharts* coarser = nullptr);

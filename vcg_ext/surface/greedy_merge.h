@@ -145,7 +145,11 @@ class GreedyMerger {
   }
 
   bool IsFlatOnFine(const std::vector<int>& some) {
-    return TryChart(groups_.parts.FinePatch(some), groups_.bound, groups_.Poll()).flat;
+    const ChartPatch patch = groups_.parts.FinePatch(some);
+    TrialFlattening map;
+    const bool flat = TryChart(patch, groups_.bound, groups_.Poll(), &map).flat;
+    groups_.fine_trials.Add(patch.faces, std::move(map));
+    return flat;
   }
 
   using Item = std::tuple<bool, double, int, int, bool>;  // not tiny, cost, charts, whether it is exact

@@ -19,6 +19,7 @@
 #include "surface/border_graph_cut.h"
 #include "surface/carried_map.h"
 #include "surface/chart_trial.h"
+#include "surface/known_trials.h"
 #include "surface/map_pricing.h"
 #include "surface/seam_price.h"
 
@@ -40,14 +41,15 @@ class BorderRefiner {
 
   /// Every face must have a chart, and every chart be one piece; charts keep their ids. None comes to be
   /// above params.max_stretch that was not, or to overlap itself.
-  void Run(ChartIds& ids) {
+  /// `known`: trials of charts of this surface.
+  void Run(const KnownTrials& known, ChartIds& ids) {
     constexpr int kMostSweeps = 3;
     constexpr double kLittle = 0.003;
     const int count = ChartCount(ids);
     std::vector<int> all(count);
     for (int c = 0; c < count; ++c) all[c] = c;
     State now{ids, std::vector<Chart>(count)};
-    Flatten(all, now);
+    Flatten(all, known, now);
     double cost = Cost(now);
     for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
       progress_.Update(static_cast<double>(sweep + 1) / (kMostSweeps + 1));
@@ -103,7 +105,7 @@ class BorderRefiner {
       std::vector<bool> bad = ChartsNotInOnePiece(surface_, ids, static_cast<int>(now.charts.size()));
       if (!is_any(bad)) {
         State next{ids, now.charts};
-        Flatten(Changed(now.ids, ids), next);
+        Flatten(Changed(now.ids, ids), {}, next);
         for (size_t c = 0; c < bad.size(); ++c) bad[c] = now.charts[c].good && !next.charts[c].good;
         if (!is_any(bad)) return next;
       }
@@ -126,7 +128,7 @@ class BorderRefiner {
     return charts;
   }
 
-  void Flatten(const std::vector<int>& which, State& state) {
+  void Flatten(const std::vector<int>& which, const KnownTrials& known, State& state) {
     const auto faces = FacesOfCharts(state.ids);
     PatchExtractor<MeshType> extractor(surface_, no_seams_);
     std::vector<ChartPatch> patches;
@@ -148,7 +150,8 @@ class BorderRefiner {
       chart.patch = std::move(patch);
       std::optional<CoarserCharts> coarser;
       if (IsLargeChart(chart.patch.mesh)) options.coarser = &coarser.emplace(Normalized(chart.patch.mesh));
-      TrialFlattening flat = TrialFlatten(chart.patch.mesh, options, poll);
+      const TrialFlattening* found = options.start ? nullptr : known.Find(patches[k].faces);
+      TrialFlattening flat = found ? *found : TrialFlatten(chart.patch.mesh, options, poll);
       chart.good = flat.ok && (may_exceed || flat.l2_stretch <= bound);
       if (chart.good && OverlapsItself(flat.uv, chart.patch.mesh.triangles))
         chart.good =

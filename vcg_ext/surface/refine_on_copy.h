@@ -62,15 +62,15 @@ void AbsorbIslands(const SurfaceGraph<MeshType>& surface, ChartIds& ids) {
 
 /// BorderRefiner for a large surface: borders are moved on a coarser copy of it, `copy`, made with charts
 /// that those of `ids` are put together from. On the surface they are then straightened where they came to
-/// lie.
+/// lie. `known`: trials on the copy.
 template <class MeshType>
-void RefineBordersOnCopy(const SurfaceGraph<MeshType>& surface, const CoarseCopy& copy, const Params& params,
-                         Progress& progress, ChartIds& ids) {
+void RefineBordersOnCopy(const SurfaceGraph<MeshType>& surface, const CoarseCopy& copy,
+                         const KnownTrials& known, const Params& params, Progress& progress, ChartIds& ids) {
   const int copy_faces = copy.Graph().FaceCount();
   ChartIds before(copy_faces);
   for (int f = 0; f < copy_faces; ++f) before[f] = ids[copy.SourceFace(f)];
   ChartIds after = before;
-  BorderRefiner<SurfaceMesh>(copy.Graph(), params, progress).Run(after);
+  BorderRefiner<SurfaceMesh>(copy.Graph(), params, progress).Run(known, after);
   if (after == before) return;
   for (int f = 0; f < surface.FaceCount(); ++f) {
     const int heir = copy.Heir(f);

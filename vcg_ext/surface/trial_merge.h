@@ -35,9 +35,9 @@ class TrialMerger {
     for (int& id : ids) id = owner[id];
     SplitAndCompact(surface_, ids);
     if (is_copied)
-      RefineBordersOnCopy(surface_, parts.Fine(), params_, progress_, ids);
+      RefineBordersOnCopy(surface_, parts.Fine(), groups.fine_trials, params_, progress_, ids);
     else
-      BorderRefiner<MeshType>(surface_, params_, progress_).Run(ids);
+      BorderRefiner<MeshType>(surface_, params_, progress_).Run(groups.fine_trials, ids);
   }
 
   /// What ChartGroups::Cost() would be after Run(), by trials on the coarse copy alone: only to compare
