@@ -71,9 +71,10 @@ EdgeCollapser::Shape EdgeCollapser::ShapeOf(const Eigen::Vector3d& a, const Eige
   const Eigen::Vector3d ab = b - a, ac = c - a;
   Shape shape;
   shape.normal = ab.cross(ac);
+  shape.twice_area = shape.normal.norm();
   const double squares = ab.squaredNorm() + ac.squaredNorm() + (c - b).squaredNorm();
   constexpr double kTwoSqrt3 = 3.4641016151377546;
-  shape.quality = squares > 0 ? kTwoSqrt3 * shape.normal.norm() / squares : 0;
+  shape.quality = squares > 0 ? kTwoSqrt3 * shape.twice_area / squares : 0;
   return shape;
 }
 
@@ -161,7 +162,7 @@ double EdgeCollapser::ShapeFactor(int v) const {
     const Shape after = ShapeOf(task_.positions[v], task_.positions[b], task_.positions[c]);
     worst = std::min(worst, after.quality);
     if (before.quality < kNoArea) continue;
-    const double cosine = before.normal.dot(after.normal) / (before.normal.norm() * after.normal.norm());
+    const double cosine = before.normal.dot(after.normal) / (before.twice_area * after.twice_area);
     if (!(cosine > kLeastCosine)) return kNever;  // not a number when the face loses its area
   }
   if (worst < kLeastQuality && worst < worst_around_) return kNever;

@@ -66,7 +66,8 @@ class EdgeCollapser {
 
  private:
   struct Shape {
-    Eigen::Vector3d normal;  // not of unit length
+    Eigen::Vector3d normal;  // as long as twice the area
+    double twice_area;
     double quality;          // 1 for an equilateral triangle, 0 for one without area
   };
   using Spoke = CollapsingMesh::Spoke;
