@@ -40,7 +40,6 @@ DartedChart CutForMeanStretchAlone(const DartGoal& goal, const std::function<voi
   // trial of the chart has shown.
   darted.flat = FlatWithoutFinish(patch, known ? &known->uv : nullptr, poll);
   SearchDarts(ForMeanStretch(goal), poll, darted);
-  darted.finished = false;
   return darted;
 }
 
@@ -100,10 +99,9 @@ DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const s
   return chart;
 }
 
-}  // namespace
-
-DartedChart CutMeanDarts(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
-                         const KnownOfChart& known) {
+// All darts, or, where the mean stretch needs some, these alone, by the map of the last dart's trial.
+DartedChart CutDartsUnfinished(const ChartPatch& patch, const DartGoal& goal,
+                               const std::function<void()>& poll, const KnownOfChart& known) {
   if (IsLargeChart(patch.mesh)) return CutLargeChart(patch, goal, poll, known);
   // A chart that needs them is not finished without.
   if (known.mean_darts && HasFinish(goal) && !HasConePoints(patch) &&
@@ -118,12 +116,24 @@ DartedChart CutMeanDarts(const ChartPatch& patch, const DartGoal& goal, const st
   if (!chart.flat.ok || CutConePoints(goal, poll, chart)) return chart;
   if (HasFinish(goal) && chart.flat.l2_stretch > goal.l2_stretch) {
     DartedChart darted = CutForMeanStretchAlone(goal, poll, patch, known.flat);
-    const bool within = darted.flat.ok && darted.flat.l2_stretch <= goal.l2_stretch;
+    if (darted.count == 0) return chart;
+    darted.finished = !(darted.flat.ok && darted.flat.l2_stretch <= goal.l2_stretch);
     // What a quick map doesn't reach, the atlas's may.
-    if (darted.count > 0 && (within || FinishDarts(goal, poll, darted))) return darted;
-    return chart;
+    return !darted.finished || FinishDarts(goal, poll, darted) ? darted : chart;
   }
   SearchDarts(goal, poll, chart);
+  return chart;
+}
+
+}  // namespace
+
+DartedChart CutMeanDarts(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
+                         const KnownOfChart& known) {
+  DartedChart chart = CutDartsUnfinished(patch, goal, poll, known);
+  if (chart.finished) return chart;
+  // The map of a dart's trial may have twice the least stretch.
+  Flattening better = FlatWithoutFinish(chart.patch, &chart.flat.uv, poll);
+  if (better.ok) chart.flat = std::move(better);
   return chart;
 }
 
@@ -158,7 +168,7 @@ bool FinishDarts(const DartGoal& goal, const std::function<void()>& poll, Darted
 
 DartedChart CutStretchDarts(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
                             const KnownOfChart& known) {
-  DartedChart chart = CutMeanDarts(patch, goal, poll, known);
+  DartedChart chart = CutDartsUnfinished(patch, goal, poll, known);
   if (chart.finished || FinishDarts(goal, poll, chart)) return chart;
   chart = Uncut(patch);
   chart.flat = known.flat ? *known.flat : FlatAsAsked(patch, goal, poll);
