@@ -5,10 +5,20 @@ import numpy as np
 import pymeshlab
 
 
-def noisy(vertices, faces, share):
-    """Normal noise on each coordinate, its standard deviation a share of the mean edge; always the same."""
+def noisy(vertices, faces, share, seed=5):
+    """Normal noise on each coordinate, its standard deviation a share of the mean edge; always the same for a seed."""
     mean_edge = np.linalg.norm(vertices[faces] - vertices[np.roll(faces, 1, axis=1)], axis=2).mean()
-    return vertices + np.random.default_rng(5).normal(0, share * mean_edge, vertices.shape)
+    return vertices + np.random.default_rng(seed).normal(0, share * mean_edge, vertices.shape)
+
+
+def quartered(vertices, faces):
+    """Every face split in four at the middles of its edges: the same surface."""
+    edges = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    pairs, middle = np.unique(edges, axis=0, return_inverse=True)
+    a, b, c = faces.T
+    ab, bc, ca = middle.reshape(-1, 3).T + len(vertices)
+    parts = ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
+    return np.vstack([vertices, vertices[pairs].mean(axis=1)]), np.stack([np.stack(p, 1) for p in parts], 1).reshape(-1, 3)
 
 
 def save(path, vertices, faces):

@@ -5,11 +5,10 @@ noise on its vertices, without any parameter."""
 import tempfile
 from pathlib import Path
 
-import numpy as np
 import pymeshlab
 
 from common import ROOT
-from meshes import noisy, save
+from meshes import noisy, quartered, save
 
 from atlases import Atlas, evaluator, make
 
@@ -18,16 +17,6 @@ OTHERS = ("spot", "horse")
 NOISE = 0.05  # standard deviation of each coordinate, of the mean edge
 SHARE, LEAST = 0.2, 1  # chart counts may differ by the larger of the two
 L2 = 0.002
-
-
-def quartered(vertices, faces):
-    """Every face split in four at the middles of its edges: the same surface."""
-    edges = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    pairs, middle = np.unique(edges, axis=0, return_inverse=True)
-    a, b, c = faces.T
-    ab, bc, ca = middle.reshape(-1, 3).T + len(vertices)
-    parts = ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
-    return np.vstack([vertices, vertices[pairs].mean(axis=1)]), np.stack([np.stack(p, 1) for p in parts], 1).reshape(-1, 3)
 
 
 def laid_on(clean, atlas):
