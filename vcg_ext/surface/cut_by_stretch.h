@@ -34,8 +34,9 @@ class StretchCutter {
   /// Without a number of charts to keep to, a chart above the bound on its stretch is parted.
   bool MayPart() const { return params_.max_stretch > 0 && params_.target_charts == 0; }
 
-  /// `seams` must be those that ChartCutter makes before darts; ids and seams change. Returns the number of
-  /// darts. `known`: what Merge has left there; flattenings are added.
+  /// `seams` must be those that ChartCutter makes before darts; ids and seams change. An atlas whose mean
+  /// stretch is high gets more darts than its charts need. Returns the number of darts. `known`: what Merge
+  /// has left there; flattenings are added.
   int Run(ChartsFor use, ChartIds& ids, SeamMask& seams, KnownFlattenings& known) {
     const bool by_stretch = params_.dart_by == DartMethod::kMeasuredStretch;
     done_.assign(surface_.FaceCount(), 0);
@@ -43,7 +44,7 @@ class StretchCutter {
     for (bool again = true; again; lower_mean = false) {
       CutOthers(lower_mean, known, ids, seams);
       if (lower_mean) LowerMeanStretch();
-      again = FinishAll(ids, seams);
+      again = FinishAll(seams);
     }
     int count = 0, above = 0;
     for (Cut& cut : cuts_) {
@@ -97,7 +98,10 @@ class StretchCutter {
         MarkCuts(surface_, chart.patch, chart.edges, seams);
         cuts_.push_back(std::move(cut));
       }
-      if (again) Mend(ids, seams);
+      if (again) {
+        SplitAndCompact(surface_, ids, &seams);
+        JoinLoops(surface_, params_, progress_, ids, seams);
+      }
     }
   }
 
@@ -135,8 +139,8 @@ class StretchCutter {
     }
   }
 
-  // Finishes all that are not; those that can't be are divided. Returns whether there were such.
-  bool FinishAll(ChartIds& ids, SeamMask& seams) {
+  // Finishes all that are not. Those that can't be are not done then; returns whether there are such.
+  bool FinishAll(SeamMask& seams) {
     std::vector<int> open;
     for (int k = 0; k < static_cast<int>(cuts_.size()); ++k)
       if (!cuts_[k].chart.finished) open.push_back(k);
@@ -146,7 +150,6 @@ class StretchCutter {
         [&](int k) { return cuts_[open[k]].chart.patch.faces.size(); },
         [&](int k, const std::function<void()>& poll) { failed[open[k]] = !Finish(cuts_[open[k]], poll); });
     std::vector<Cut> finished;
-    int next_id = ChartCount(ids);
     for (size_t k = 0; k < cuts_.size(); ++k) {
       if (!failed[k]) {
         finished.push_back(std::move(cuts_[k]));
@@ -159,11 +162,9 @@ class StretchCutter {
         ClearSeam(seams, surface_.Opposite(s));
       }
       for (int f : chart.patch.faces) done_[f] = 0;
-      Divide(PatchExtractor<MeshType>(surface_, seams).Extract(chart.patch.faces), next_id, ids, seams);
     }
     const bool any = finished.size() < cuts_.size();
     cuts_ = std::move(finished);
-    if (any) Mend(ids, seams);
     return any;
   }
 
@@ -189,12 +190,6 @@ class StretchCutter {
     if (!MayPart() || whole.faces.size() == 1) return false;
     PartChart(whole, Bisect(whole, [this] { progress_.Poll(); }), next_id++, ids, seams);
     return true;
-  }
-
-  // After charts were divided.
-  void Mend(ChartIds& ids, SeamMask& seams) {
-    SplitAndCompact(surface_, ids, &seams);
-    JoinLoops(surface_, params_, progress_, ids, seams);
   }
 
   DartGoal GoalOf(const ChartPatch& patch, double bound) const {

@@ -56,13 +56,11 @@ bool IsAbove(const DartGoal& goal, const std::function<void()>& poll, const Char
 }
 
 // A large chart gets the darts that a coarser one gets: each to the same vertex, along the shortest way there
-// is here. A chart without them when they don't serve here.
+// is here. It is not flattened: `flat` has the figures of the coarser one. `coarser`: of the patch.
 DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
-                          const KnownOfChart& known) {
+                          const std::shared_ptr<CoarserCharts>& coarser) {
   constexpr double kHopeless = 1.2;  // of the goal's L2 - 1
   if (poll) poll();
-  const std::shared_ptr<CoarserCharts> coarser =
-      known.coarser ? known.coarser : std::make_shared<CoarserCharts>(Normalized(patch.mesh));
   DartedChart chart = Uncut(patch);
   const FewTriangles& few = coarser->ForTrials(poll);
   if (!IsLargeChart(few.mesh)) {
@@ -86,23 +84,35 @@ DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const s
       chart.count += !cut.empty();
       chart.patch = CutOpen(chart.patch, cut);
     }
+    chart.flat.ok = darted.flat.ok;
+    chart.flat.l2_stretch = darted.flat.l2_stretch;
+    chart.flat.linf_stretch = darted.flat.linf_stretch;
   }
-  if (poll) poll();
-  if (chart.count > 0) {
-    chart.coarser = std::make_shared<CoarserCharts>(Normalized(chart.patch.mesh));
-    chart.flat = FlatAsAsked(chart.patch, goal, poll, chart.coarser.get());
-    if (chart.flat.ok && !Overlaps(chart)) return chart;
-    chart = Uncut(patch);
-  }
-  chart.coarser = coarser;
-  chart.flat = known.flat ? *known.flat : FlatAsAsked(patch, goal, poll, coarser.get());
+  chart.coarser = chart.count > 0 ? std::make_shared<CoarserCharts>(Normalized(chart.patch.mesh)) : coarser;
+  chart.finished = false;
   return chart;
 }
 
-// All darts, or, where the mean stretch needs some, these alone, by the map of the last dart's trial.
+// Without darts, flattened as asked.
+DartedChart FlatUncut(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
+                      const KnownOfChart& known) {
+  DartedChart chart = Uncut(patch);
+  chart.coarser = known.coarser;
+  chart.flat = known.flat ? *known.flat : FlatAsAsked(patch, goal, poll, known.coarser.get());
+  chart.l2_uncut = chart.flat.l2_stretch;
+  return chart;
+}
+
+// All darts, or, where the mean stretch needs some, these alone, by the map of the last dart's trial; of a
+// large chart all, by the figures of a coarser one. `known` must have the coarser charts of a large one.
 DartedChart CutDartsUnfinished(const ChartPatch& patch, const DartGoal& goal,
                                const std::function<void()>& poll, const KnownOfChart& known) {
-  if (IsLargeChart(patch.mesh)) return CutLargeChart(patch, goal, poll, known);
+  if (IsLargeChart(patch.mesh)) {
+    DartedChart chart = CutLargeChart(patch, goal, poll, known.coarser);
+    if (chart.finished || (chart.flat.ok && chart.flat.l2_stretch <= goal.l2_stretch)) return chart;
+    // What the coarser chart doesn't reach, this one may.
+    return chart.count > 0 && FinishDarts(goal, poll, chart) ? chart : FlatUncut(patch, goal, poll, known);
+  }
   // A chart that needs them is not finished without.
   if (known.mean_darts && HasFinish(goal) && !HasConePoints(patch) &&
       IsAbove(goal, poll, patch, known.mean_darts->l2_uncut)) {
@@ -110,9 +120,7 @@ DartedChart CutDartsUnfinished(const ChartPatch& patch, const DartGoal& goal,
     chart.finished = false;
     return chart;
   }
-  DartedChart chart = Uncut(patch);
-  chart.flat = known.flat ? *known.flat : FlatAsAsked(patch, goal, poll);
-  chart.l2_uncut = chart.flat.l2_stretch;
+  DartedChart chart = FlatUncut(patch, goal, poll, known);
   if (!chart.flat.ok || CutConePoints(goal, poll, chart)) return chart;
   if (HasFinish(goal) && chart.flat.l2_stretch > goal.l2_stretch) {
     DartedChart darted = CutForMeanStretchAlone(goal, poll, patch, known.flat);
@@ -125,12 +133,18 @@ DartedChart CutDartsUnfinished(const ChartPatch& patch, const DartGoal& goal,
   return chart;
 }
 
+KnownOfChart WithCoarser(const ChartPatch& patch, KnownOfChart known) {
+  if (IsLargeChart(patch.mesh) && !known.coarser)
+    known.coarser = std::make_shared<CoarserCharts>(Normalized(patch.mesh));
+  return known;
+}
+
 }  // namespace
 
 DartedChart CutMeanDarts(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
                          const KnownOfChart& known) {
-  DartedChart chart = CutDartsUnfinished(patch, goal, poll, known);
-  if (chart.finished) return chart;
+  DartedChart chart = CutDartsUnfinished(patch, goal, poll, WithCoarser(patch, known));
+  if (chart.finished || IsLargeChart(patch.mesh)) return chart;
   // The map of a dart's trial may have twice the least stretch.
   Flattening better = FlatWithoutFinish(chart.patch, &chart.flat.uv, poll);
   if (better.ok) chart.flat = std::move(better);
@@ -138,14 +152,14 @@ DartedChart CutMeanDarts(const ChartPatch& patch, const DartGoal& goal, const st
 }
 
 bool AddMeanDarts(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart) {
-  DartedChart darted = chart;
+  DartedChart darted;
   if (IsLargeChart(chart.patch.mesh)) {
-    DartedChart more = CutLargeChart(chart.patch, goal, poll, {&chart.flat, nullptr, chart.coarser});
-    more.edges.insert(more.edges.begin(), chart.edges.begin(), chart.edges.end());
-    more.tips.insert(more.tips.begin(), chart.tips.begin(), chart.tips.end());
-    more.count += chart.count;
-    darted = std::move(more);
+    darted = CutLargeChart(chart.patch, goal, poll, chart.coarser);
+    darted.edges.insert(darted.edges.begin(), chart.edges.begin(), chart.edges.end());
+    darted.tips.insert(darted.tips.begin(), chart.tips.begin(), chart.tips.end());
+    darted.count += chart.count;
   } else {
+    darted = chart;
     if (darted.finished) darted.flat = FlatWithoutFinish(darted.patch, &chart.flat.uv, poll);
     SearchDarts(ForMeanStretch(goal), poll, darted);
     darted.finished = false;
@@ -158,22 +172,26 @@ bool AddMeanDarts(const DartGoal& goal, const std::function<void()>& poll, Darte
 
 bool FinishDarts(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart) {
   DartedChart finished = chart;
-  finished.flat = FlatWithFinish(finished.patch, goal, poll);
-  if (!finished.flat.ok || (Overlaps(finished) && !DrawApart(goal, poll, finished))) return false;
+  finished.flat = FlatAsAsked(finished.patch, goal, poll, finished.coarser.get());
+  if (!finished.flat.ok) return false;
   finished.finished = true;
-  if (finished.flat.l2_stretch <= goal.l2_stretch) SearchDarts(goal, poll, finished);
+  if (IsLargeChart(chart.patch.mesh)) {
+    // Without darts it may overlap itself: Parameterize draws it apart, or cuts it.
+    if (finished.count > 0 && Overlaps(finished)) return false;
+  } else {
+    if (Overlaps(finished) && !DrawApart(goal, poll, finished)) return false;
+    if (finished.flat.l2_stretch <= goal.l2_stretch) SearchDarts(goal, poll, finished);
+  }
   chart = std::move(finished);
   return true;
 }
 
 DartedChart CutStretchDarts(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
                             const KnownOfChart& known) {
-  DartedChart chart = CutDartsUnfinished(patch, goal, poll, known);
-  if (chart.finished || FinishDarts(goal, poll, chart)) return chart;
-  chart = Uncut(patch);
-  chart.flat = known.flat ? *known.flat : FlatAsAsked(patch, goal, poll);
-  chart.l2_uncut = chart.flat.l2_stretch;
-  return chart;
+  const KnownOfChart all_known = WithCoarser(patch, known);
+  DartedChart chart = CutDartsUnfinished(patch, goal, poll, all_known);
+  if (chart.finished || ((chart.count > 0 || !known.flat) && FinishDarts(goal, poll, chart))) return chart;
+  return FlatUncut(patch, goal, poll, all_known);
 }
 
 }  // namespace dcharts

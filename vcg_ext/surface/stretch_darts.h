@@ -29,17 +29,18 @@ DartedChart CutStretchDarts(const ChartPatch& patch, const DartGoal& goal, const
                             const KnownOfChart& known = {});
 
 /// The first half of it, for those who may want more darts before the finish, which takes as long as all
-/// else: where the mean stretch needs darts and these bring a quick map within the goal, these alone;
-/// `finished` is false then. All other charts are as CutStretchDarts makes them.
+/// else: where the mean stretch needs darts and these bring a quick map within the goal, these alone. A large
+/// chart gets all its darts, but isn't flattened where a coarser one is within the goal: `flat` has its
+/// figures and no UVs. `finished` is false then. All other charts are as CutStretchDarts makes them.
 DartedChart CutMeanDarts(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
                          const KnownOfChart& known = {});
 
-/// More darts, for the mean stretch alone. False when there are none that lower it; else a chart that isn't
-/// large has to be finished again.
+/// More darts, for the mean stretch alone (of a large chart for both). False when there are none that lower
+/// it; else the chart has to be finished again.
 bool AddMeanDarts(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart);
 
-/// The other half: flattens a chart with darts and cuts those that its worst stretch needs. False, and the
-/// chart is as it was, when it overlaps itself then; it may be above the goal.
+/// The other half: flattens a chart and cuts those darts that its worst stretch needs. False, and the chart
+/// is as it was, when there is no map, or darts make it overlap itself; it may be above the goal.
 bool FinishDarts(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart);
 
 }  // namespace dcharts
