@@ -269,6 +269,30 @@ TEST(StretchDarts, WhatOverlapsItselfIsNotFinished) {
   EXPECT_EQ(chart.flat.uv.rows(), 0) << "it is as it was";
 }
 
+TEST(StretchDarts, ALargeChartIsFlattenedLast) {
+  const TestSurface surface(shapes::SphericalCap(90, 1.2));
+  const ChartPatch patch = surface.WholePatch();
+  const DartGoal goal = Goal(1.02, 1.3, patch.Diagonal()), strict = Goal(1.005, 1.3, patch.Diagonal());
+  DartedChart chart = CutMeanDarts(patch, goal, [] {});
+  EXPECT_FALSE(chart.finished);
+  EXPECT_EQ(chart.flat.uv.rows(), 0);
+  EXPECT_LE(chart.flat.l2_stretch, goal.l2_stretch) << "of the coarser chart";
+  DartedChart more = chart;
+  ASSERT_TRUE(AddMeanDarts(
+      strict, [] {}, more));
+  EXPECT_FALSE(more.finished);
+  EXPECT_GT(more.count, chart.count);
+  ASSERT_TRUE(FinishDarts(
+      goal, [] {}, chart));
+  EXPECT_TRUE(chart.finished);
+  const DartedChart at_once = CutStretchDarts(patch, goal, [] {});
+  EXPECT_EQ(chart.edges, at_once.edges);
+  EXPECT_EQ(chart.flat.uv, at_once.flat.uv);
+  ASSERT_TRUE(FinishDarts(
+      strict, [] {}, more));
+  EXPECT_LE(more.flat.l2_stretch, strict.l2_stretch);
+}
+
 TEST(StretchDarts, CoarserChartsOfALargeOneServeAgain) {
   const TestSurface surface(shapes::SphericalCap(90, 1.2));
   const ChartPatch patch = surface.WholePatch();
