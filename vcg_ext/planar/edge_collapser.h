@@ -68,7 +68,7 @@ class EdgeCollapser {
   struct Shape {
     Eigen::Vector3d normal;  // as long as twice the area
     double twice_area;
-    double quality;          // 1 for an equilateral triangle, 0 for one without area
+    double quality;  // 1 for an equilateral triangle, 0 for one without area
   };
   using Spoke = CollapsingMesh::Spoke;
 
