@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/freed_memory.h"
 #include "surface/crease_weight.h"
 #include "surface/denoised_normals.h"
 #include "surface/fill.h"
@@ -14,6 +15,7 @@ namespace dcharts {
 Workspace::Workspace(const SurfaceData& data, const std::function<void()>& poll)
     : data_(data), built_(BuildSurface(data, mesh_, poll)), surface_(mesh_) {
   poll();
+  KeepFreedMemory();
   DenoiseNormals(surface_, poll);
 }
 
