@@ -36,7 +36,7 @@ struct DartedChart {
   Flattening flat;         ///< of `patch`
   std::shared_ptr<CoarserCharts> coarser;  ///< those of `patch`, when it is a large chart
   double l2_uncut = 1;                     ///< the L2 stretch before, by a quick map
-  bool finished = true;                    ///< `flat` is as the goal asks; false: by a quick map
+  bool finished = true;  ///< `flat` is as the goal asks; false: by a quick map, or of a coarser chart
 };
 
 /// Without darts, and not flattened.
