@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "common/pi.h"
 #include "surface/known_trials.h"
 #include "surface/patch_paths.h"
 #include "surface_fixture.h"
@@ -98,15 +97,9 @@ TEST(ChartTrial, ALargerCapCostsMore) {
   }
 }
 
-// A ramp that winds around an axis one and a half times: laid flat without stretch, it lies on itself.
 TEST(ChartTrial, WhatOverlapsItselfIsNotFlat) {
   for (double turns : {0.5, 1.5}) {
-    SurfaceData mesh = shapes::Grid(60, 3);
-    for (auto& p : mesh.vertices) {
-      const double angle = 2 * kPi * turns * p[0], radius = 1 + 0.5 * p[1];
-      p = {radius * std::cos(angle), radius * std::sin(angle), 0.05 * angle};
-    }
-    const ChartTrial trial = Trial(TestSurface(mesh));
+    const ChartTrial trial = Trial(TestSurface(test::Ramp(turns)));
     EXPECT_EQ(trial.flat, turns < 1);
     EXPECT_LT(trial.stretch, 1.01);
     EXPECT_GE(trial.stretch, 1);

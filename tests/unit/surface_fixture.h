@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/params.h"
+#include "common/pi.h"
 #include "common/progress.h"
 #include "shapes.h"
 #include "surface/chart_patch.h"
@@ -74,6 +75,16 @@ class TestSurface {
   std::unique_ptr<SurfaceGraph<SurfaceMesh>> graph_;
   SurfaceData data_;
 };
+
+/// A ramp that winds around an axis. Laid flat without stretch, more than one turn lies on itself.
+inline SurfaceData Ramp(double turns) {
+  SurfaceData mesh = shapes::Grid(60, 3);
+  for (auto& p : mesh.vertices) {
+    const double angle = 2 * kPi * turns * p[0], radius = 1 + 0.5 * p[1];
+    p = {radius * std::cos(angle), radius * std::sin(angle), 0.05 * angle};
+  }
+  return mesh;
+}
 
 /// Which side of the unit cube a point is on, 0..5.
 inline int CubeSide(const std::array<double, 3>& p, const std::array<double, 3>& centre, double half) {

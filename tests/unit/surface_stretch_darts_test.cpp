@@ -10,7 +10,6 @@
 
 #include <gtest/gtest.h>
 
-#include "common/pi.h"
 #include "planar/trial_flatten.h"
 #include "surface/patch_paths.h"
 #include "surface_fixture.h"
@@ -215,6 +214,15 @@ TEST(StretchDarts, KnownDartsThatAreNotNeededAreLeft) {
   EXPECT_EQ(CutStretchDarts(patch, goal, [] {}, {nullptr, &darted}).count, 0);
 }
 
+void ExpectFinishedAsAtOnce(const ChartPatch& patch, const DartGoal& goal, DartedChart chart) {
+  ASSERT_TRUE(FinishDarts(
+      goal, [] {}, chart));
+  EXPECT_TRUE(chart.finished);
+  const DartedChart at_once = CutStretchDarts(patch, goal, [] {});
+  EXPECT_EQ(chart.edges, at_once.edges);
+  EXPECT_EQ(chart.flat.uv, at_once.flat.uv);
+}
+
 TEST(StretchDarts, TheFinishMayComeLater) {
   const TestSurface surface(shapes::SphericalCap(12, 1.5));
   const ChartPatch patch = surface.WholePatch();
@@ -226,12 +234,7 @@ TEST(StretchDarts, TheFinishMayComeLater) {
   FlattenOptions least;
   least.linf_finish = false;
   EXPECT_LT(chart.flat.l2_stretch - 1, 1.05 * (Flatten(chart.patch.mesh, least).l2_stretch - 1));
-  ASSERT_TRUE(FinishDarts(
-      goal, [] {}, chart));
-  EXPECT_TRUE(chart.finished);
-  const DartedChart at_once = CutStretchDarts(patch, goal, [] {});
-  EXPECT_EQ(chart.edges, at_once.edges);
-  EXPECT_EQ(chart.flat.uv, at_once.flat.uv);
+  ExpectFinishedAsAtOnce(patch, goal, chart);
 }
 
 TEST(StretchDarts, MoreDartsLowerTheMeanStretch) {
@@ -254,14 +257,8 @@ TEST(StretchDarts, MoreDartsLowerTheMeanStretch) {
   EXPECT_EQ(kept.edges, before.edges);
 }
 
-// A ramp that winds around an axis one and a half times lies on itself, whatever is done.
 TEST(StretchDarts, WhatOverlapsItselfIsNotFinished) {
-  SurfaceData mesh = shapes::Grid(60, 3);
-  for (auto& p : mesh.vertices) {
-    const double angle = 3 * kPi * p[0], radius = 1 + 0.5 * p[1];
-    p = {radius * std::cos(angle), radius * std::sin(angle), 0.05 * angle};
-  }
-  DartedChart chart = Uncut(TestSurface(mesh).WholePatch());
+  DartedChart chart = Uncut(TestSurface(test::Ramp(1.5)).WholePatch());
   chart.finished = false;
   EXPECT_FALSE(FinishDarts(
       Goal(1.01, 1.3, chart.patch.Diagonal()), [] {}, chart));
@@ -282,12 +279,7 @@ TEST(StretchDarts, ALargeChartIsFlattenedLast) {
       strict, [] {}, more));
   EXPECT_FALSE(more.finished);
   EXPECT_GT(more.count, chart.count);
-  ASSERT_TRUE(FinishDarts(
-      goal, [] {}, chart));
-  EXPECT_TRUE(chart.finished);
-  const DartedChart at_once = CutStretchDarts(patch, goal, [] {});
-  EXPECT_EQ(chart.edges, at_once.edges);
-  EXPECT_EQ(chart.flat.uv, at_once.flat.uv);
+  ExpectFinishedAsAtOnce(patch, goal, chart);
   ASSERT_TRUE(FinishDarts(
       strict, [] {}, more));
   EXPECT_LE(more.flat.l2_stretch, strict.l2_stretch);

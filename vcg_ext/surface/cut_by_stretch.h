@@ -83,9 +83,9 @@ class StretchCutter {
       ParallelForLargestFirst(
           static_cast<int>(cuts.size()), progress_, [&](int k) { return cuts[k].chart.patch.faces.size(); },
           [&](int k, const std::function<void()>& poll) {
-            const auto& [chart, goal, without] = cuts[k];
-            cuts[k].chart = (mean_only ? CutMeanDarts : CutStretchDarts)(chart.patch, goal, poll,
-                                                                         known.Of(chart.patch, goal));
+            DartedChart& chart = cuts[k].chart;
+            chart = (mean_only ? CutMeanDarts : CutStretchDarts)(chart.patch, cuts[k].goal, poll,
+                                                                 known.Of(chart.patch, cuts[k].goal));
           });
       int next_id = ChartCount(ids);
       for (Cut& cut : cuts) {
