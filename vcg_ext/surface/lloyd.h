@@ -2,26 +2,22 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
+#include <atomic>
+#include <functional>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include "common/parallel.h"
 #include "common/params.h"
 #include "common/progress.h"
+#include "common/threads.h"
 #include "surface/charts.h"
 #include "surface/growth.h"
+#include "surface/lloyd_iterations.h"
 #include "surface/seeds.h"
 
 namespace dcharts {
-
-/// The result of Segment: ids may hold unassigned faces.
-struct Segmentation {
-  ChartIds ids;
-  int iterations = 0;
-  double energy = 0;           ///< mean fitting error over the surface, unassigned faces counted with F_max
-  double unassigned_area = 0;  ///< share of the surface, 0..1
-};
 
 /// Modified Lloyd iterations (Section 3.1).
 template <class MeshType>
@@ -53,20 +49,17 @@ class Lloyd {
   /// From charts that are nearly right: as few iterations as set them right.
   Segmentation RunFrom(std::vector<GrowingChart> charts) {
     constexpr int kFewIterations = 2;
-    Iterations run;
-    run.charts = std::move(charts);
+    Iterations run(surface_, seeds_, params_, std::move(charts));
     return Iterate(run, std::min(kFewIterations, params_.max_iterations));
   }
 
   /// The charts of a segmentation, with its own proxies and seeds.
   std::vector<GrowingChart> ChartsOf(const ChartIds& ids) const {
-    std::vector<GrowingChart> charts;
-    for (const auto& faces : FacesOfCharts(ids))
-      if (!faces.empty()) charts.push_back(seeds_.Refit(faces, params_));
-    return charts;
+    return RefittedCharts(seeds_, ids, params_);
   }
 
  private:
+  using Iterations = LloydIterations<MeshType>;
   static constexpr int kMostCharts = 2000;
 
   // Charts that fit to this share of F_max flatten with an L2 stretch below 1.005 on models of many kinds,
@@ -82,119 +75,104 @@ class Lloyd {
   // Strides through the growing list of numbers, then halves the last stride: as if more charts always fitted
   // better, which is nearly so.
   Segmentation Smallest() {
-    constexpr int kTrialIterations = 6;
     constexpr size_t kStride = 4;
     const int most = std::min(kMostCharts, surface_.FaceCount());
     std::vector<int> counts;
     for (int count = 1; counts.empty() || counts.back() < most; count = std::max(count + 1, count * 5 / 4))
       counts.push_back(std::min(count, most));
-    const auto is_good = [&](size_t i) {
+    const auto after = [&](size_t i) { return std::min(i + kStride, counts.size() - 1); };
+    const auto is_good = [&](size_t i, const Guess& guess) {
       if (i + 1 == counts.size()) return true;  // there are no more
-      return FitWell(counts[i], std::min(kTrialIterations, params_.max_iterations));
+      return FitWell(counts[i], guess);
     };
     size_t low = 0, high = std::min(2 * kStride, counts.size()) - 1;
-    while (!is_good(high)) {
+    while (!is_good(high, {counts[after(high)], TrialIterations()})) {
       low = high + 1;
-      high = std::min(high + kStride, counts.size() - 1);
+      high = after(high);
     }
     while (low < high) {
       const size_t middle = (low + high) / 2;
-      if (is_good(middle))
+      if (is_good(middle, {counts[high], params_.max_iterations}))
         high = middle;
       else
         low = middle + 1;
     }
-    Segmentation result = Iterate(counts[low], params_.max_iterations);
+    Segmentation result = Iterate(RunOf(counts[low]), params_.max_iterations);
+    asked_[counts[low]] = result.iterations;
     result.iterations = 0;
-    for (auto& run : runs_) result.iterations += run.second.best.iterations;
+    for (const auto& [count, iterations] : asked_) result.iterations += iterations;
     return result;
   }
-
-  // Iterations that can be gone on with.
-  struct Iterations {
-    std::vector<GrowingChart> charts;
-    Segmentation best;
-    ChartIds previous;
-    double gained_from = std::numeric_limits<double>::infinity();
-    int without_gain = 0;
-    bool done = false;
-  };
 
   Segmentation Iterate(int count, int max_iterations) { return Iterate(RunOf(count), max_iterations); }
 
   Iterations& RunOf(int count) {
-    Iterations& run = runs_[count];
-    if (run.charts.empty()) run.charts = seeds_.FarthestPoints(count);
-    return run;
+    const auto known = runs_.find(count);
+    if (known != runs_.end()) return known->second;
+    return runs_.try_emplace(count, surface_, seeds_, params_, seeds_.FarthestPoints(count)).first->second;
   }
 
-  // Whether so many charts fit well within `max_iterations`, of which it makes no more than it takes to tell.
-  // Those after the third have lowered the energy by less than half, on all models tried.
-  bool FitWell(int count, int max_iterations) {
+  int TrialIterations() const {
+    constexpr int kTrialIterations = 6;
+    return std::min(kTrialIterations, params_.max_iterations);
+  }
+
+  // What may be asked for next: so many iterations of so many charts.
+  struct Guess {
+    int count, iterations;
+  };
+
+  // Whether so many charts fit well. On a large surface a thread without work goes on with the guess
+  // meanwhile.
+  bool FitWell(int count, const Guess& guess) {
+    constexpr int kManyFaces = 45000;
+    Iterations& run = RunOf(count);
+    if (surface_.FaceCount() < kManyFaces || FreeThreads() == 0 || guess.count == count) {
+      return FitsWell(run, asked_[count], [&] {
+        progress_.Update((run.Made() + 1) / (run.Made() + 6.0));
+        run.MakeOne(growth_);
+      });
+    }
+    Iterations& next = RunOf(guess.count);
+    int& asked = asked_[count];
+    std::atomic<bool> told{false};
+    bool fits = false;
+    InParallel(2, [this] { progress_.Poll(); }, [&](int k, const std::function<void()>& poll) {
+      Growth<MeshType> growth(surface_, params_, poll);
+      if (k == 0) {
+        fits = FitsWell(run, asked, [&] { run.MakeOne(growth); });
+        told = true;
+      } else {
+        while (!told && next.Made() < guess.iterations && !next.AreDone()) next.MakeOne(growth);
+      }
+    });
+    return fits;
+  }
+
+  // Makes no more iterations than it takes to tell, but for those that are there already; `asked` counts what
+  // it takes. Those after the third have lowered the energy by less than half, on all models tried.
+  template <class MakeOne>
+  bool FitsWell(const Iterations& run, int& asked, const MakeOne& make_one) const {
     constexpr int kTelling = 3;
     constexpr double kHopeless = 2;
-    Iterations& run = RunOf(count);
     const double good = GoodEnergy();
-    for (int iteration = 1; iteration <= max_iterations; ++iteration) {
-      Advance(run, iteration);
-      if (run.best.energy <= good) return true;
-      if (iteration >= kTelling && run.best.energy > kHopeless * good) return false;
+    for (int iteration = 1; iteration <= TrialIterations(); ++iteration) {
+      if (run.Made() < iteration && !run.AreDone()) make_one();
+      asked = std::min(iteration, run.Made());
+      if (run.Energy(iteration) <= good) return true;
+      if (iteration >= kTelling && run.Energy(iteration) > kHopeless * good) return false;
     }
     return false;
   }
 
   Segmentation Iterate(Iterations& run, int max_iterations) {
-    Advance(run, max_iterations);
-    Segmentation result = run.best;
+    while (run.Made() < max_iterations && !run.AreDone()) {
+      progress_.Update((run.Made() + 1) / (run.Made() + 6.0));
+      run.MakeOne(growth_);
+    }
+    Segmentation result = run.Best();
     RemoveSpecks(result.ids);
     return result;
-  }
-
-  void Advance(Iterations& run, int max_iterations) {
-    // The iterations may swing without end: they stop when nothing was gained for a while.
-    constexpr int kPatience = 6;
-    constexpr double kGain = 0.005;
-    ChartIds ids;
-    for (int iteration = run.best.iterations + 1; iteration <= max_iterations && !run.done; ++iteration) {
-      progress_.Update(iteration / (iteration + 5.0));
-      ids.assign(surface_.FaceCount(), kUnassigned);
-      growth_.FromSeeds(run.charts, params_.max_fitting_error, ids);
-      Keep(ids, run.charts, run.best);
-      run.best.iterations = iteration;
-      const bool gained = run.best.energy < (1 - kGain) * run.gained_from;
-      if (gained) run.gained_from = run.best.energy;
-      run.without_gain = gained ? 0 : run.without_gain + 1;
-      run.done = (iteration > 1 && Reassigned(run.previous, ids) < params_.reassigned_percent / 100) ||
-                 run.without_gain >= kPatience;
-      if (!run.done) run.charts = ChartsOf(ids);
-      run.previous.swap(ids);
-    }
-  }
-
-  // The iterations may swing: the best one counts.
-  void Keep(const ChartIds& ids, const std::vector<GrowingChart>& charts, Segmentation& best) const {
-    double error = 0, unassigned = 0;
-    for (int f = 0; f < surface_.FaceCount(); ++f) {
-      if (ids[f] == kUnassigned)
-        unassigned += surface_.Area(f);
-      else
-        error += surface_.Area(f) * FittingError(charts[ids[f]].proxy, surface_.Normal(f));
-    }
-    const double energy = (error + params_.max_fitting_error * unassigned) / surface_.TotalArea();
-    if (!best.ids.empty() && energy >= best.energy) return;
-    best.ids = ids;
-    best.energy = energy;
-    best.unassigned_area = unassigned / surface_.TotalArea();
-  }
-
-  // Share of the faces with a chart that have another than before.
-  static double Reassigned(const ChartIds& before, const ChartIds& now) {
-    size_t changed = 0, assigned = 0;
-    for (size_t f = 0; f < now.size(); ++f) {
-      changed += before[f] != now[f];
-      assigned += now[f] != kUnassigned;
-    }
-    return static_cast<double>(changed) / static_cast<double>(std::max<size_t>(assigned, 1));
   }
 
   // A chart of a face or two could not grow: its place is a hole for Fill. Where all are so small there is no
@@ -217,6 +195,7 @@ class Lloyd {
   Seeds<MeshType> seeds_;
   Growth<MeshType> growth_;
   std::map<int, Iterations> runs_;  // from so many of the farthest points
+  std::map<int, int> asked_;        // how many iterations of these were not only guesses
 };
 
 }  // namespace dcharts

@@ -75,16 +75,16 @@ class Seeds {
 
     const auto share = static_cast<size_t>(params.seed_percent / 100 * static_cast<double>(faces.size()));
     const size_t candidates = std::min(faces.size(), std::max<size_t>(params.seed_candidates, share));
-    errors_.resize(faces.size());
+    std::vector<double> errors(faces.size());
     for (size_t k = 0; k < faces.size(); ++k)
-      errors_[k] = FittingError(chart.proxy, surface_.Normal(faces[k]));
-    sorted_ = errors_;
-    std::nth_element(sorted_.begin(), sorted_.begin() + (candidates - 1), sorted_.end());
+      errors[k] = FittingError(chart.proxy, surface_.Normal(faces[k]));
+    std::vector<double> sorted = errors;
+    std::nth_element(sorted.begin(), sorted.begin() + (candidates - 1), sorted.end());
     // Equal errors are common (a plane: all are 0), so every face that ties with the k-th takes part.
-    const double bound = sorted_[candidates - 1] + 1e-12;
+    const double bound = sorted[candidates - 1] + 1e-12;
     double nearest = 1e300;
     for (size_t k = 0; k < faces.size(); ++k) {
-      if (errors_[k] > bound || surface_.Area(faces[k]) <= 0) continue;
+      if (errors[k] > bound || surface_.Area(faces[k]) <= 0) continue;
       const double d = (surface_.Centroid(faces[k]) - centre).squaredNorm();
       if (d < nearest) {
         nearest = d;
@@ -144,7 +144,6 @@ class Seeds {
   DualDistance<MeshType> distance_;  // from all of farthest_
   std::vector<GrowingChart> farthest_;
   std::vector<double> block_farthest_;  // of each block of faces, or more
-  mutable std::vector<double> errors_, sorted_;
 };
 
 }  // namespace dcharts
