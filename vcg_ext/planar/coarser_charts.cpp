@@ -5,6 +5,16 @@
 #include <utility>
 
 namespace dcharts {
+namespace {
+
+// `few`: of `finer`, which is of a chart.
+FewTriangles WithSourcesOf(const FewTriangles& finer, FewTriangles few) {
+  for (int& v : few.source_vertex) v = finer.source_vertex[static_cast<std::size_t>(v)];
+  for (int& f : few.source_face) f = finer.source_face[static_cast<std::size_t>(f)];
+  return few;
+}
+
+}  // namespace
 
 bool IsLargeChart(const ChartMesh& chart) {
   constexpr int kManyTriangles = 30000;
@@ -24,20 +34,21 @@ CoarserCharts& CoarserCharts::OfQuarter(const std::function<void()>& poll) {
   return *of_quarter_;
 }
 
+const FewTriangles& CoarserCharts::LastQuarter(const std::function<void()>& poll) {
+  if (last_quarter_) return *last_quarter_;
+  const CoarseChart& quarter = Quarter(poll);
+  FewTriangles few{quarter.Mesh(), quarter.Opposite(), quarter.SourceVertices(), quarter.SourceFaces()};
+  if (IsLargeChart(quarter.Mesh())) few = WithSourcesOf(few, OfQuarter(poll).LastQuarter(poll));
+  return last_quarter_.emplace(std::move(few));
+}
+
 const FewTriangles& CoarserCharts::ForTrials(const std::function<void()>& poll) {
   if (for_trials_) return *for_trials_;
-  const CoarseChart& quarter = Quarter(poll);
-  FewTriangles few;
-  if (IsLargeChart(quarter.Mesh())) {
-    few = OfQuarter(poll).ForTrials(poll);
-  } else {
-    constexpr int kEnoughFaces = 8000;
-    const CoarseChart coarse(quarter.Mesh(), kEnoughFaces, poll);
-    few = {coarse.Mesh(), coarse.Opposite(), coarse.SourceVertices(), coarse.SourceFaces()};
-  }
-  for (int& v : few.source_vertex) v = quarter.SourceVertices()[static_cast<std::size_t>(v)];
-  for (int& f : few.source_face) f = quarter.SourceFaces()[static_cast<std::size_t>(f)];
-  return for_trials_.emplace(std::move(few));
+  constexpr int kEnoughFaces = 8000;
+  const FewTriangles& last = LastQuarter(poll);
+  const CoarseChart coarse(last.mesh, kEnoughFaces, poll);
+  return for_trials_.emplace(WithSourcesOf(
+      last, {coarse.Mesh(), coarse.Opposite(), coarse.SourceVertices(), coarse.SourceFaces()}));
 }
 
 }  // namespace dcharts

@@ -35,14 +35,16 @@ class CoarserCharts {
   const CoarseChart& Quarter(const std::function<void()>& poll);
   /// Those of the mesh of Quarter(), which may be large itself.
   CoarserCharts& OfQuarter(const std::function<void()>& poll);
-  /// From the last quarter of quarters.
+  /// The last quarter of quarters, which isn't large.
+  const FewTriangles& LastQuarter(const std::function<void()>& poll);
+  /// Still fewer triangles, from that.
   const FewTriangles& ForTrials(const std::function<void()>& poll);
 
  private:
   const NormalizedChart normalized_;
   std::optional<CoarseChart> quarter_;
   std::unique_ptr<CoarserCharts> of_quarter_;
-  std::optional<FewTriangles> for_trials_;
+  std::optional<FewTriangles> last_quarter_, for_trials_;
 };
 
 }  // namespace dcharts

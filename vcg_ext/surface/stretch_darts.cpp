@@ -55,19 +55,26 @@ bool IsAbove(const DartGoal& goal, const std::function<void()>& poll, const Char
   return flat.ok && flat.l2_stretch - 1 > kSurely * (goal.l2_stretch - 1);
 }
 
-// A large chart gets the darts that a coarser one gets: each to the same vertex, along the shortest way there
-// is here. It is not flattened: `flat` has the figures of the coarser one. `coarser`: of the patch.
-DartedChart CutLargeChart(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
-                          const std::shared_ptr<CoarserCharts>& coarser) {
+// The darts of a coarser chart. It may lap over itself: that doesn't tell whether the finer one does.
+DartedChart CutCoarserChart(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll) {
+  DartedChart chart = CutStretchDarts(patch, goal, poll);
+  if (chart.count > 0 || !HasFinish(goal) || !(chart.flat.l2_stretch > goal.l2_stretch)) return chart;
+  return CutStretchDarts(patch, ForMeanStretch(goal), poll);
+}
+
+// A large chart gets the darts that a coarser one gets, `few` of `coarser`: each to the same vertex, along the
+// shortest way there is here. It is not flattened: `flat` has the figures of the coarser one. `coarser`: of
+// the patch.
+DartedChart CutLargeChart(const ChartPatch& patch, const FewTriangles& few, const DartGoal& goal,
+                          const std::function<void()>& poll, const std::shared_ptr<CoarserCharts>& coarser) {
   constexpr double kHopeless = 1.2;  // of the goal's L2 - 1
   if (poll) poll();
   DartedChart chart = Uncut(patch);
-  const FewTriangles& few = coarser->ForTrials(poll);
   if (!IsLargeChart(few.mesh)) {
     ChartPatch small{few.source_face, few.mesh, few.opposite};
     for (int v = 0; v < small.VertexCount(); ++v)
       small.mesh.positions.row(v) = patch.mesh.positions.row(few.source_vertex[v]);
-    const DartedChart darted = CutStretchDarts(small, goal, poll);
+    const DartedChart darted = CutCoarserChart(small, goal, poll);
     if (goal.may_give_up && !(darted.flat.l2_stretch - 1 <= kHopeless * (goal.l2_stretch - 1))) {
       chart.flat.why = "A coarser chart is stretched too much.";
       return chart;
@@ -103,16 +110,35 @@ DartedChart FlatUncut(const ChartPatch& patch, const DartGoal& goal, const std::
   return chart;
 }
 
+// A large chart: all darts, by the figures of a coarser one, or else by its own. Which darts there are hangs
+// on how coarse that is.
+DartedChart CutLargeUnfinished(const ChartPatch& patch, const DartGoal& goal,
+                               const std::function<void()>& poll, const KnownOfChart& known) {
+  DartedChart best;
+  for (const bool again : {false, true}) {
+    const FewTriangles& few = again ? known.coarser->LastQuarter(poll) : known.coarser->ForTrials(poll);
+    DartedChart chart = CutLargeChart(patch, few, goal, poll, known.coarser);
+    if (chart.flat.ok && chart.flat.l2_stretch <= goal.l2_stretch) return chart;
+    // What the coarser chart doesn't reach, this one may.
+    if (chart.count > 0 && FinishDarts(goal, poll, chart)) {
+      if (chart.flat.l2_stretch <= goal.l2_stretch) return chart;
+      if (!best.flat.ok || chart.flat.l2_stretch < best.flat.l2_stretch) best = std::move(chart);
+    } else if (!best.flat.ok) {
+      best = std::move(chart);
+    }
+    constexpr double kFiner = 1.2;
+    const auto faces = static_cast<double>(few.mesh.triangles.rows());
+    if (again || !goal.may_give_up) break;
+    if (static_cast<double>(known.coarser->LastQuarter(poll).mesh.triangles.rows()) < kFiner * faces) break;
+  }
+  return best.finished ? best : FlatUncut(patch, goal, poll, known);
+}
+
 // All darts, or, where the mean stretch needs some, these alone, by the map of the last dart's trial; of a
 // large chart all, by the figures of a coarser one. `known` must have the coarser charts of a large one.
 DartedChart CutDartsUnfinished(const ChartPatch& patch, const DartGoal& goal,
                                const std::function<void()>& poll, const KnownOfChart& known) {
-  if (IsLargeChart(patch.mesh)) {
-    DartedChart chart = CutLargeChart(patch, goal, poll, known.coarser);
-    if (chart.finished || (chart.flat.ok && chart.flat.l2_stretch <= goal.l2_stretch)) return chart;
-    // What the coarser chart doesn't reach, this one may.
-    return chart.count > 0 && FinishDarts(goal, poll, chart) ? chart : FlatUncut(patch, goal, poll, known);
-  }
+  if (IsLargeChart(patch.mesh)) return CutLargeUnfinished(patch, goal, poll, known);
   // A chart that needs them is not finished without.
   if (known.mean_darts && HasFinish(goal) && !HasConePoints(patch) &&
       IsAbove(goal, poll, patch, known.mean_darts->l2_uncut)) {
@@ -154,7 +180,7 @@ DartedChart CutMeanDarts(const ChartPatch& patch, const DartGoal& goal, const st
 bool AddMeanDarts(const DartGoal& goal, const std::function<void()>& poll, DartedChart& chart) {
   DartedChart darted;
   if (IsLargeChart(chart.patch.mesh)) {
-    darted = CutLargeChart(chart.patch, goal, poll, chart.coarser);
+    darted = CutLargeChart(chart.patch, chart.coarser->ForTrials(poll), goal, poll, chart.coarser);
     darted.edges.insert(darted.edges.begin(), chart.edges.begin(), chart.edges.end());
     darted.tips.insert(darted.tips.begin(), chart.tips.begin(), chart.tips.end());
     darted.count += chart.count;
@@ -175,13 +201,10 @@ bool FinishDarts(const DartGoal& goal, const std::function<void()>& poll, Darted
   finished.flat = FlatAsAsked(finished.patch, goal, poll, finished.coarser.get());
   if (!finished.flat.ok) return false;
   finished.finished = true;
-  if (IsLargeChart(chart.patch.mesh)) {
-    // Without darts it may overlap itself: Parameterize draws it apart, or cuts it.
-    if (finished.count > 0 && Overlaps(finished)) return false;
-  } else {
-    if (Overlaps(finished) && !DrawApart(goal, poll, finished)) return false;
-    if (finished.flat.l2_stretch <= goal.l2_stretch) SearchDarts(goal, poll, finished);
-  }
+  const bool is_large = IsLargeChart(chart.patch.mesh);
+  // A large one without darts may overlap itself: Parameterize draws it apart, or cuts it.
+  if ((finished.count > 0 || !is_large) && Overlaps(finished) && !DrawApart(goal, poll, finished)) return false;
+  if (!is_large && finished.flat.l2_stretch <= goal.l2_stretch) SearchDarts(goal, poll, finished);
   chart = std::move(finished);
   return true;
 }
