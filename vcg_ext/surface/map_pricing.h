@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
+#include <functional>
 #include <vector>
 
-#include "planar/extend_map.h"
-#include "surface/chart_patch.h"
+#include "common/parallel.h"
 #include "surface/charts.h"
+#include "surface/guest_pricing.h"
 
 namespace dcharts {
 
@@ -16,148 +17,36 @@ template <class MeshType>
 class MapPricing {
  public:
   explicit MapPricing(const SurfaceGraph<MeshType>& surface)
-      : surface_(surface),
-        map_of_(surface.FaceCount(), -1),
-        uv_(surface.HalfEdgeCount()),
-        local_(surface.VertexCount(), -1),
-        in_collar_(surface.FaceCount(), false) {}
+      : maps_(surface), into_a_(surface), into_b_(surface) {}
 
   /// Charts without a map keep all their faces and get none.
-  void ForgetMaps() { std::fill(map_of_.begin(), map_of_.end(), -1); }
-  /// `uv`: per vertex of the patch, in model units.
-  void SetMap(int chart, const ChartPatch& patch, const Points2& uv) {
-    for (int h = 0; h < patch.HalfEdgeCount(); ++h) {
-      const int v = patch.Vertex(h);
-      uv_[patch.SurfaceHalfEdge(h)] = {uv(v, 0), uv(v, 1)};
-      map_of_[patch.faces[h / 3]] = chart;
-    }
-  }
+  ChartMaps<MeshType>& Maps() { return maps_; }
 
   static double Reach() { return 0; }
 
   void Prepare(int a, int b, const std::vector<int>&, const std::vector<int>& band, const ChartIds& ids) {
     price_.assign(band.size(), 0);
-    PriceGuests(a, b, band, ids, 1);
-    PriceGuests(b, a, band, ids, -1);
+    const auto price = [&](int k) {
+      if (k == 0)
+        into_a_.Price(maps_, a, b, band, ids, 1, price_);
+      else
+        into_b_.Price(maps_, b, a, band, ids, -1, price_);
+    };
+    constexpr std::size_t kManyFaces = 4000;  // fewer are done before a thread has begun
+    if (band.size() >= kManyFaces) {
+      InParallel(2, {}, [&](int k, const std::function<void()>&) { price(k); });
+      return;
+    }
+    price(0);
+    price(1);
   }
 
   double operator()(int k) const { return price_[k]; }
 
  private:
-  static constexpr double kProhibitive = 1e3;  // no face is stretched like this
-
-  // A face that moved since the maps were made is on none.
-  bool IsOnMap(int f, int chart, const ChartIds& ids) const { return map_of_[f] == chart && ids[f] == chart; }
-
-  double Excess(int f) const {
-    const Eigen::Vector3d e1 = surface_.Position(f, 1) - surface_.Position(f, 0),
-                          e2 = surface_.Position(f, 2) - surface_.Position(f, 0);
-    return DirichletExcess(e1, e2, uv_[3 * f + 1] - uv_[3 * f], uv_[3 * f + 2] - uv_[3 * f]);
-  }
-
-  // Prices the faces of `guest` in the band as faces of `host`. sign: 1 when the host is the pair's chart a.
-  void PriceGuests(int host, int guest, const std::vector<int>& band, const ChartIds& ids, double sign) {
-    guests_.clear();
-    faces_.clear();
-    vertices_.clear();
-    for (int k = 0; k < static_cast<int>(band.size()); ++k) {
-      if (ids[band[k]] != guest) continue;
-      if (!IsOnMap(band[k], guest, ids)) {
-        price_[k] = -sign * kProhibitive;
-        continue;
-      }
-      guests_.push_back(k);
-      AddFace(band[k]);
-    }
-    AddCollar(host, band, ids);
-    MapEdge edge = ReadEdge(host, ids);
-    const std::vector<double> excess = ExtendMap(edge);
-    // What the guests cost the faces that make room for them is theirs to pay.
-    double of_guests = 0, of_collar = 0;
-    for (int t = 0; t < static_cast<int>(faces_.size()); ++t) {
-      if (!(excess[t] < kProhibitive)) continue;
-      const bool is_guest = t < static_cast<int>(guests_.size());
-      const double more = is_guest ? excess[t] : excess[t] - Excess(faces_[t]);
-      (is_guest ? of_guests : of_collar) += surface_.Area(faces_[t]) * more;
-    }
-    const double share = of_guests > 0 ? 1 + std::max(0.0, of_collar) / of_guests : 1;
-    for (int t = 0; t < static_cast<int>(guests_.size()); ++t) {
-      const double gain = TouchesTear(t) ? -kProhibitive : Excess(faces_[t]) - share * excess[t];
-      price_[guests_[t]] = sign * std::clamp(gain, -kProhibitive, kProhibitive);
-    }
-    for (int f : faces_) in_collar_[f] = false;
-    for (int v : vertices_) local_[v] = -1;
-  }
-
-  void AddFace(int f) {
-    faces_.push_back(f);
-    for (int h = 3 * f; h < 3 * f + 3; ++h) {
-      int& local = local_[surface_.Vertex(h)];
-      if (local >= 0) continue;
-      local = static_cast<int>(vertices_.size());
-      vertices_.push_back(surface_.Vertex(h));
-    }
-  }
-
-  // The host's own faces in the band may make room, except where a cut through the host ends.
-  void AddCollar(int host, const std::vector<int>& band, const ChartIds& ids) {
-    const size_t guests = faces_.size();
-    for (int f : band)
-      if (IsOnMap(f, host, ids)) AddFace(f);
-    torn_.assign(vertices_.size(), false);
-    for (size_t v = 0; v < vertices_.size(); ++v) {
-      int first = -1;
-      for (const int* r = surface_.RingBegin(vertices_[v]); r != surface_.RingEnd(vertices_[v]); ++r) {
-        if (!IsOnMap(*r / 3, host, ids)) continue;
-        if (first >= 0 && uv_[first] != uv_[*r]) torn_[v] = true;
-        first = *r;
-      }
-    }
-    size_t kept = guests;
-    for (size_t t = guests; t < faces_.size(); ++t)
-      if (!TouchesTear(static_cast<int>(t))) faces_[kept++] = faces_[t];
-    faces_.resize(kept);
-    for (size_t t = guests; t < kept; ++t) in_collar_[faces_[t]] = true;
-  }
-
-  bool TouchesTear(int t) const {
-    for (int h = 3 * faces_[t]; h < 3 * faces_[t] + 3; ++h)
-      if (torn_[local_[surface_.Vertex(h)]]) return true;
-    return false;
-  }
-
-  MapEdge ReadEdge(int host, const ChartIds& ids) const {
-    MapEdge edge;
-    edge.mesh.triangles.resize(static_cast<int>(faces_.size()), 3);
-    for (int t = 0; t < static_cast<int>(faces_.size()); ++t)
-      for (int i = 0; i < 3; ++i) edge.mesh.triangles(t, i) = local_[surface_.Vertex(3 * faces_[t] + i)];
-    const size_t count = vertices_.size();
-    edge.mesh.positions.resize(static_cast<int>(count), 3);
-    edge.placed.assign(count, false);
-    edge.fixed.assign(count, false);
-    edge.uv.resize(count);
-    for (size_t v = 0; v < count; ++v) {
-      edge.mesh.positions.row(static_cast<int>(v)) = surface_.Position(vertices_[v]);
-      for (const int* r = surface_.RingBegin(vertices_[v]); r != surface_.RingEnd(vertices_[v]); ++r) {
-        if (!IsOnMap(*r / 3, host, ids)) continue;
-        edge.placed[v] = true;
-        edge.uv[v] = uv_[*r];
-        if (!in_collar_[*r / 3]) edge.fixed[v] = true;
-      }
-    }
-    return edge;
-  }
-
-  const SurfaceGraph<MeshType>& surface_;
-  std::vector<int> map_of_;      // per face: the chart on whose map it is
-  std::vector<Complex> uv_;      // per corner, on that map
-  std::vector<double> price_;    // per face of the band
-  std::vector<int> guests_;      // in the band
-  std::vector<int> faces_;       // the guests, then the collar
-  std::vector<int> vertices_;    // of those
-  std::vector<int> local_;       // per vertex of the surface: its place in vertices_
-  std::vector<bool> torn_;       // per vertex in vertices_: in several places on the host's map
-  std::vector<char> in_collar_;  // per face
+  ChartMaps<MeshType> maps_;
+  GuestPricing<MeshType> into_a_, into_b_;
+  std::vector<double> price_;  // per face of the band
 };
 
 }  // namespace dcharts

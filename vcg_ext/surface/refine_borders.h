@@ -91,9 +91,9 @@ class BorderRefiner {
     BorderCutOptions options;
     options.length_weight = params_.seam_weight * kSeamPrice;
     options.max_sweeps = 1;
-    pricing_.ForgetMaps();
+    pricing_.Maps().Forget();
     for (int c = 0; c < static_cast<int>(now.charts.size()); ++c)
-      if (now.charts[c].good) pricing_.SetMap(c, now.charts[c].patch, now.charts[c].uv);
+      if (now.charts[c].good) pricing_.Maps().Set(c, now.charts[c].patch, now.charts[c].uv);
     ChartIds ids = now.ids;
     BorderGraphCut<MeshType, MapPricing<MeshType>>(surface_, options, pricing_, progress_).Run(ids);
     // Charts that came out bad get their faces back, and give back what they got, until all are good. That
