@@ -47,8 +47,8 @@ const FewTriangles& CoarserCharts::ForTrials(const std::function<void()>& poll) 
   constexpr int kEnoughFaces = 8000;
   const FewTriangles& last = LastQuarter(poll);
   const CoarseChart coarse(last.mesh, kEnoughFaces, poll);
-  return for_trials_.emplace(WithSourcesOf(
-      last, {coarse.Mesh(), coarse.Opposite(), coarse.SourceVertices(), coarse.SourceFaces()}));
+  return for_trials_.emplace(
+      WithSourcesOf(last, {coarse.Mesh(), coarse.Opposite(), coarse.SourceVertices(), coarse.SourceFaces()}));
 }
 
 }  // namespace dcharts

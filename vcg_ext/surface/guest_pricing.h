@@ -55,8 +55,8 @@ class GuestPricing {
   explicit GuestPricing(const SurfaceGraph<MeshType>& surface)
       : surface_(surface), local_(surface.VertexCount(), -1), in_collar_(surface.FaceCount(), false) {}
 
-  /// Sets the prices of the faces of `guest` in the band, as MapPricing has them. `sign`: 1 when the host is the
-  /// pair's chart a, else -1.
+  /// Sets the prices of the faces of `guest` in the band, as MapPricing has them. `sign`: 1 when the host is
+  /// the pair's chart a, else -1.
   void Price(const ChartMaps<MeshType>& maps, int host, int guest, const std::vector<int>& band,
              const ChartIds& ids, double sign, std::vector<double>& price) {
     guests_.clear();
@@ -103,7 +103,8 @@ class GuestPricing {
   }
 
   // The host's own faces in the band may make room, except where a cut through the host ends.
-  void AddCollar(const ChartMaps<MeshType>& maps, int host, const std::vector<int>& band, const ChartIds& ids) {
+  void AddCollar(const ChartMaps<MeshType>& maps, int host, const std::vector<int>& band,
+                 const ChartIds& ids) {
     const size_t guests = faces_.size();
     for (int f : band)
       if (maps.Hold(f, host, ids)) AddFace(f);

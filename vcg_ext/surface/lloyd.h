@@ -137,15 +137,17 @@ class Lloyd {
     int& asked = asked_[count];
     std::atomic<bool> told{false};
     bool fits = false;
-    InParallel(2, [this] { progress_.Poll(); }, [&](int k, const std::function<void()>& poll) {
-      Growth<MeshType> growth(surface_, params_, poll);
-      if (k == 0) {
-        fits = FitsWell(run, asked, [&] { run.MakeOne(growth); });
-        told = true;
-      } else {
-        while (!told && next.Made() < guess.iterations && !next.AreDone()) next.MakeOne(growth);
-      }
-    });
+    InParallel(
+        2, [this] { progress_.Poll(); },
+        [&](int k, const std::function<void()>& poll) {
+          Growth<MeshType> growth(surface_, params_, poll);
+          if (k == 0) {
+            fits = FitsWell(run, asked, [&] { run.MakeOne(growth); });
+            told = true;
+          } else {
+            while (!told && next.Made() < guess.iterations && !next.AreDone()) next.MakeOne(growth);
+          }
+        });
     return fits;
   }
 

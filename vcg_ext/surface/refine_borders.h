@@ -154,8 +154,7 @@ class BorderRefiner {
       TrialFlattening flat = found ? *found : TrialFlatten(chart.patch.mesh, options, poll);
       chart.good = flat.ok && (may_exceed || flat.l2_stretch <= bound);
       if (chart.good && OverlapsItself(flat.uv, chart.patch.mesh.triangles))
-        chart.good =
-            params_.target_charts == 0 && DrawApart(chart.patch.mesh, bound, options.coarser, poll, flat);
+        chart.good = params_.target_charts == 0 && DrawApart(chart.patch.mesh, bound, options, poll, flat);
       chart.cost = flat.energy * chart.patch.Area() / surface_.TotalArea() + SeamCost(cut_length);
       chart.stretch = flat.l2_stretch;
       chart.uv = std::move(flat.uv);
@@ -163,10 +162,16 @@ class BorderRefiner {
     ParallelForLargestFirst(static_cast<int>(which.size()), progress_, size, flatten);
   }
 
-  // As Merge may have done it.
-  static bool DrawApart(const ChartMesh& mesh, double bound, CoarserCharts* coarser,
+  // As Merge may have done it. Where the chart has a map from before, its parts are apart there but for what
+  // came to them: fewer steps draw that apart than a map anew, whose parts lap over each other again.
+  static bool DrawApart(const ChartMesh& mesh, double bound, const TrialOptions& options,
                         const std::function<void()>& poll, TrialFlattening& flat) {
-    std::optional<ApartMap> apart = LayApart(mesh, flat.uv, bound, ApartMapFor::kMeasuring, poll, coarser);
+    const auto from = [&](const Points2& uv) {
+      return LayApart(mesh, uv, bound, ApartMapFor::kMeasuring, poll, options.coarser);
+    };
+    std::optional<ApartMap> apart;
+    if (options.start && !IsLargeChart(mesh)) apart = from(*options.start);
+    if (!apart) apart = from(flat.uv);
     if (!apart) return false;
     flat.uv = std::move(apart->uv);
     flat.l2_stretch = apart->l2_stretch;

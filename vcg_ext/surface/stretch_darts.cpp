@@ -56,15 +56,16 @@ bool IsAbove(const DartGoal& goal, const std::function<void()>& poll, const Char
 }
 
 // The darts of a coarser chart. It may lap over itself: that doesn't tell whether the finer one does.
-DartedChart CutCoarserChart(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll) {
+DartedChart CutCoarserChart(const ChartPatch& patch, const DartGoal& goal,
+                            const std::function<void()>& poll) {
   DartedChart chart = CutStretchDarts(patch, goal, poll);
   if (chart.count > 0 || !HasFinish(goal) || !(chart.flat.l2_stretch > goal.l2_stretch)) return chart;
   return CutStretchDarts(patch, ForMeanStretch(goal), poll);
 }
 
-// A large chart gets the darts that a coarser one gets, `few` of `coarser`: each to the same vertex, along the
-// shortest way there is here. It is not flattened: `flat` has the figures of the coarser one. `coarser`: of
-// the patch.
+// A large chart gets the darts that a coarser one gets, `few` of `coarser`: each to the same vertex, along
+// the shortest way there is here. It is not flattened: `flat` has the figures of the coarser one. `coarser`:
+// of the patch.
 DartedChart CutLargeChart(const ChartPatch& patch, const FewTriangles& few, const DartGoal& goal,
                           const std::function<void()>& poll, const std::shared_ptr<CoarserCharts>& coarser) {
   constexpr double kHopeless = 1.2;  // of the goal's L2 - 1
@@ -203,7 +204,8 @@ bool FinishDarts(const DartGoal& goal, const std::function<void()>& poll, Darted
   finished.finished = true;
   const bool is_large = IsLargeChart(chart.patch.mesh);
   // A large one without darts may overlap itself: Parameterize draws it apart, or cuts it.
-  if ((finished.count > 0 || !is_large) && Overlaps(finished) && !DrawApart(goal, poll, finished)) return false;
+  if ((finished.count > 0 || !is_large) && Overlaps(finished) && !DrawApart(goal, poll, finished))
+    return false;
   if (!is_large && finished.flat.l2_stretch <= goal.l2_stretch) SearchDarts(goal, poll, finished);
   chart = std::move(finished);
   return true;
