@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a change does beyond chance, in one command:
 
-    python benchmarks/draws.py [--models DIR] [--only MODEL ...] [--save FILE] [--against FILE]
+    python benchmarks/draws.py [--large] [--models DIR] [--only MODEL ...] [--save FILE] [--against FILE]
 
 Charts come together by a long row of decisions, and a vertex that moves by a hair may turn one: a single model tells
 little. So Texture Atlas without parameters is run on several draws of each model: as it is, with noise too small to be
-seen (three draws), with noise of 5 % of an edge, and with four times the faces. Prints a row for each and the sums of
-charts, seams and cpu seconds on one thread; --save writes them as JSON, and --against compares them with those that were
+seen (three draws), with noise of 5 % of an edge, and with four times the faces. With --large each model is quartered until
+it has 90,000 faces or more, and taken as it is then and with two draws of the least noise. Prints a row for each and the sums
+of charts, seams and cpu seconds on one thread; --save writes them as JSON, and --against compares them with those that were
 saved before the change. Figures are the filter's own. Has no bounds. Needs the package (pip install .) and numpy."""
 
 import argparse
@@ -27,6 +28,7 @@ from reference import MODELS
 OURS = ("plush", "torus", "cad_part")
 HAIR, HAIRS = 0.002, 3  # noise of the mean edge, draws of it
 NOISE = 0.05
+LARGE, LARGE_HAIRS = 90000, 2  # faces, draws
 
 
 def draws(vertices, faces):
@@ -35,6 +37,14 @@ def draws(vertices, faces):
         yield f"hair {seed}", noisy(vertices, faces, HAIR, seed), faces
     yield "noise", noisy(vertices, faces, NOISE), faces
     yield "4x", *quartered(vertices, faces)
+
+
+def large_draws(vertices, faces):
+    while len(faces) < LARGE:
+        vertices, faces = quartered(vertices, faces)
+    yield "large", vertices, faces
+    for seed in range(LARGE_HAIRS):
+        yield f"large, hair {seed}", noisy(vertices, faces, HAIR, seed), faces
 
 
 def run(mesh):
@@ -57,6 +67,7 @@ def sums(rows):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--large", action="store_true")
     parser.add_argument("--models", type=Path, default=MODELS_DIR, metavar="DIR")
     parser.add_argument("--only", nargs="+", metavar="MODEL")
     parser.add_argument("--save", type=Path, metavar="FILE")
@@ -73,7 +84,7 @@ def main():
             ms = pymeshlab.MeshSet()
             ms.load_new_mesh(str(path))
             mesh = ms.current_mesh()
-            for draw, vertices, faces in draws(mesh.vertex_matrix(), mesh.face_matrix()):
+            for draw, vertices, faces in (large_draws if options.large else draws)(mesh.vertex_matrix(), mesh.face_matrix()):
                 name = f"{path.stem} {draw}".strip()
                 rows[name] = run(save(Path(folder) / "draw.ply", vertices, faces) if draw else path)
                 print(f"{name:24} {line(rows[name])}" + (f" | {line(before[name])}" if name in before else ""), flush=True)

@@ -63,6 +63,28 @@ TEST(CoarseChart, KeepsVerticesWhereTheyAreAndLeadsBackToThem) {
     EXPECT_EQ((*uv)[coarse.SourceVertices()[v]], Complex(flat.uv(v, 0), flat.uv(v, 1)));
 }
 
+TEST(CoarserCharts, OfChartsForTrialsTellWhatTheyAreOf) {
+  const ChartMesh chart = OfUnitArea(SphereCap(260, 1.0));
+  ASSERT_GT(chart.triangles.rows(), 120000) << "so that a quarter of it is large, too";
+  CoarserCharts coarser(Normalized(chart));
+  const FewTriangles &last = coarser.LastQuarter({}), &few = coarser.ForTrials({});
+  EXPECT_LE(last.mesh.triangles.rows(), chart.triangles.rows() / 16);
+  EXPECT_LE(few.mesh.triangles.rows(), 8000);
+  EXPECT_LE(few.mesh.triangles.rows(), last.mesh.triangles.rows());
+  const double scale = Normalized(chart).scale;
+  for (const FewTriangles* made : {&last, &few}) {
+    ASSERT_EQ(made->source_vertex.size(), static_cast<size_t>(made->mesh.positions.rows()));
+    ASSERT_EQ(made->source_face.size(), static_cast<size_t>(made->mesh.triangles.rows()));
+    const Eigen::RowVector3d offset =
+        chart.positions.row(made->source_vertex[0]) - scale * made->mesh.positions.row(0);
+    for (Eigen::Index v = 0; v < made->mesh.positions.rows(); ++v)
+      EXPECT_LT((chart.positions.row(made->source_vertex[static_cast<size_t>(v)]) - offset -
+                 scale * made->mesh.positions.row(v))
+                    .norm(),
+                1e-3);
+  }
+}
+
 TEST(CoarseChart, ContinuesMapsOfNoisyChartsWithoutFlips) {
   for (const double noise : {0.0, 0.003, 0.01, 0.03}) {  // edges are about 0.05 long
     const ChartMesh chart = OfUnitArea(Noisy(SphereCap(40, 1.2), noise));

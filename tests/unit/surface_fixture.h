@@ -77,8 +77,8 @@ class TestSurface {
 };
 
 /// A ramp that winds around an axis. Laid flat without stretch, more than one turn lies on itself.
-inline SurfaceData Ramp(double turns) {
-  SurfaceData mesh = shapes::Grid(60, 3);
+inline SurfaceData Ramp(double turns, int columns = 60, int rows = 3) {
+  SurfaceData mesh = shapes::Grid(columns, rows);
   for (auto& p : mesh.vertices) {
     const double angle = 2 * kPi * turns * p[0], radius = 1 + 0.5 * p[1];
     p = {radius * std::cos(angle), radius * std::sin(angle), 0.05 * angle};

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "surface_fixture.h"
+#include "thread_count.h"
 
 namespace dcharts {
 namespace {
@@ -53,6 +54,21 @@ TEST(Lloyd, DevelopableShapesNeedNoEnergy) {
     const Segmentation result = Segmented(TestSurface(mesh), Count(0));
     EXPECT_NEAR(result.energy, 0, 1e-9);
     EXPECT_EQ(ChartCount(result.ids), 1);
+  }
+}
+
+TEST(Lloyd, CountOfALargeSurfaceIsTheSameOnAnyNumberOfThreads) {
+  const TestSurface surface(shapes::Plush(100));
+  ASSERT_GT(surface->FaceCount(), 45000);
+  std::vector<Segmentation> results;
+  for (int threads : {1, 2, 3}) {
+    const test::Threads count(threads);
+    results.push_back(Segmented(surface, Count(0)));
+  }
+  EXPECT_GT(ChartCount(results[0].ids), 2);
+  for (const Segmentation& result : results) {
+    EXPECT_EQ(result.ids, results[0].ids);
+    EXPECT_EQ(result.iterations, results[0].iterations) << "those that were only guesses don't count";
   }
 }
 

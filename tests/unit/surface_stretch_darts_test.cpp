@@ -6,10 +6,12 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "planar/normalized_chart.h"
 #include "planar/trial_flatten.h"
 #include "surface/patch_paths.h"
 #include "surface_fixture.h"
@@ -31,6 +33,11 @@ double Length(const ChartPatch& patch, const std::vector<int>& edges) {
   double length = 0;
   for (int h : edges) length += patch.Length(h);
   return length;
+}
+
+DartedChart OfQuickMap(DartedChart chart) {
+  chart.flat = FlatWithoutFinish(chart.patch, nullptr, [] {});
+  return chart;
 }
 
 TEST(StretchDarts, AConeGetsOneToItsApex) {
@@ -264,6 +271,25 @@ TEST(StretchDarts, WhatOverlapsItselfIsNotFinished) {
       Goal(1.01, 1.3, chart.patch.Diagonal()), [] {}, chart));
   EXPECT_FALSE(chart.finished);
   EXPECT_EQ(chart.flat.uv.rows(), 0) << "it is as it was";
+}
+
+TEST(StretchDarts, ALargeChartThatLapsOverALittleIsDrawnApart) {
+  for (const double turns : {1.02, 1.5}) {
+    DartedChart chart = Uncut(TestSurface(test::Ramp(turns, 600, 27)).WholePatch());
+    ASSERT_TRUE(IsLargeChart(chart.patch.mesh));
+    ASSERT_TRUE(Overlaps(OfQuickMap(chart)));
+    chart.count = 1;  // as one with a dart, which is to be without overlaps
+    chart.finished = false;
+    chart.coarser = std::make_shared<CoarserCharts>(Normalized(chart.patch.mesh));
+    const bool comes_apart = turns < 1.1;
+    EXPECT_EQ(FinishDarts(
+                  Goal(1.01, 1.3, chart.patch.Diagonal()), [] {}, chart),
+              comes_apart);
+    EXPECT_EQ(chart.finished, comes_apart);
+    if (!comes_apart) continue;
+    EXPECT_FALSE(Overlaps(chart));
+    EXPECT_LE(chart.flat.l2_stretch, 1.01);
+  }
 }
 
 TEST(StretchDarts, ALargeChartIsFlattenedLast) {
