@@ -282,8 +282,8 @@ TEST(Coarsen, IsDeterministicAndHardlyMindsRotation) {
 
 // Large enough to be coarsened in blocks.
 TEST(Coarsen, ALargeSurfaceComesOutTheSameOnAnyNumberOfThreads) {
-  const TestSurface surface(shapes::Sphere(75));
-  ASSERT_GT(surface->FaceCount(), 100000);
+  const TestSurface surface(shapes::Sphere(90));
+  ASSERT_GT(surface->FaceCount(), 150000);
   const ChartIds ids(surface->FaceCount(), 0);
   for (const int target : {surface->FaceCount() / 4, 2000}) {
     std::vector<CoarseSurface> results;

@@ -40,7 +40,7 @@ class Coarsener {
 
   void Run(int target_faces) {
     if (FaceCount() <= target_faces) return;
-    constexpr int kManyFaces = 100000, kFacesPerBlock = 16384;
+    constexpr int kManyFaces = 150000, kFacesPerBlock = 16384;
     // What lies beside the rim of a block stays finer; in the next blocks, or at last, that is made up for.
     constexpr int kAtOnce = 3;
     constexpr double kMore = 1.5;
