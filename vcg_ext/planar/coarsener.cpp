@@ -40,11 +40,11 @@ class Coarsener {
 
   void Run(int target_faces) {
     if (FaceCount() <= target_faces) return;
-    constexpr int kManyFaces = 150000, kFacesPerBlock = 16384;
+    constexpr int kManyFaces = 150000, kStillMany = 100000, kFacesPerBlock = 16384;
     // What lies beside the rim of a block stays finer; in the next blocks, or at last, that is made up for.
     constexpr int kAtOnce = 3;
     constexpr double kMore = 1.5;
-    while (FaceCount() > std::max(kManyFaces, 2 * target_faces)) {
+    for (int many = kManyFaces; FaceCount() > std::max(many, 2 * target_faces); many = kStillMany) {
       const int before = FaceCount();
       const int goal = std::max(before / kAtOnce, static_cast<int>(kMore * target_faces));
       CollapseInBlocks(before / kFacesPerBlock + 1, goal);
