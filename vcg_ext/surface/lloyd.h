@@ -97,7 +97,7 @@ class Lloyd {
       else
         low = middle + 1;
     }
-    Segmentation result = Iterate(RunOf(counts[low]), params_.max_iterations);
+    Segmentation result = Iterate(counts[low], params_.max_iterations);
     asked_[counts[low]] = result.iterations;
     result.iterations = 0;
     for (const auto& [count, iterations] : asked_) result.iterations += iterations;
@@ -128,10 +128,7 @@ class Lloyd {
     constexpr int kManyFaces = 45000;
     Iterations& run = RunOf(count);
     if (surface_.FaceCount() < kManyFaces || FreeThreads() == 0 || guess.count == count) {
-      return FitsWell(run, asked_[count], [&] {
-        progress_.Update((run.Made() + 1) / (run.Made() + 6.0));
-        run.MakeOne(growth_);
-      });
+      return FitsWell(run, asked_[count], [&] { MakeOne(run); });
     }
     Iterations& next = RunOf(guess.count);
     int& asked = asked_[count];
@@ -153,8 +150,8 @@ class Lloyd {
 
   // Makes no more iterations than it takes to tell, but for those that are there already; `asked` counts what
   // it takes. Those after the third have lowered the energy by less than half, on all models tried.
-  template <class MakeOne>
-  bool FitsWell(const Iterations& run, int& asked, const MakeOne& make_one) const {
+  template <class Make>
+  bool FitsWell(const Iterations& run, int& asked, const Make& make_one) const {
     constexpr int kTelling = 3;
     constexpr double kHopeless = 2;
     const double good = GoodEnergy();
@@ -167,11 +164,13 @@ class Lloyd {
     return false;
   }
 
+  void MakeOne(Iterations& run) {
+    progress_.Update((run.Made() + 1) / (run.Made() + 6.0));
+    run.MakeOne(growth_);
+  }
+
   Segmentation Iterate(Iterations& run, int max_iterations) {
-    while (run.Made() < max_iterations && !run.AreDone()) {
-      progress_.Update((run.Made() + 1) / (run.Made() + 6.0));
-      run.MakeOne(growth_);
-    }
+    while (run.Made() < max_iterations && !run.AreDone()) MakeOne(run);
     Segmentation result = run.Best();
     RemoveSpecks(result.ids);
     return result;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/parallel.h"
+#include "surface/chart_maps.h"
 #include "surface/charts.h"
 #include "surface/guest_pricing.h"
 
