@@ -10,6 +10,7 @@
 #include <functional>
 #include <mutex>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "common/errors.h"
@@ -41,7 +42,9 @@ void ShareOut(int count, const Ask& ask, const Work& work) {
         ++done;
       }
       // The calling thread alone may talk to the host: it stays awake for the others.
+      std::optional<WaitsForHelpers> waits;
       while (asks && done < count && !stop) {
+        if (!waits) waits.emplace();
         poll();
         std::unique_lock<std::mutex> lock(mutex);
         ended.wait_for(lock, std::chrono::milliseconds(1), [&] { return done >= count || stop; });

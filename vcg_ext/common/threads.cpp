@@ -77,6 +77,10 @@ class HeldThreads {
 
 }  // namespace
 
+WaitsForHelpers::WaitsForHelpers() { --helpers_at_work; }
+
+WaitsForHelpers::~WaitsForHelpers() { ++helpers_at_work; }
+
 int FreeThreads() { return std::max(0, ThreadCount() - 1 - helpers_at_work); }
 
 // Not OpenMP: where a thread can't be made, its library ends the program.

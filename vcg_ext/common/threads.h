@@ -17,4 +17,14 @@ int FreeThreads();
 /// gives fewer or has no memory for them. Returns when all have ended; `work` must not throw.
 void OnThreads(int helpers, const std::function<void(bool)>& work);
 
+/// While it lives, the thread that called OnThreads only waits for its helpers: one of them may have a helper
+/// in its place.
+class WaitsForHelpers {
+ public:
+  WaitsForHelpers();
+  ~WaitsForHelpers();
+  WaitsForHelpers(const WaitsForHelpers&) = delete;
+  WaitsForHelpers& operator=(const WaitsForHelpers&) = delete;
+};
+
 }  // namespace dcharts

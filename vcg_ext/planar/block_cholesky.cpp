@@ -2,14 +2,22 @@
 #include "planar/block_cholesky.h"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
+#include <queue>
+#include <utility>
+
+#include "common/parallel.h"
 
 namespace dcharts {
 namespace {
 
+using Eigen::Matrix2d;
+
 std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 // False unless `d` is positive definite.
-bool Invert(const Eigen::Matrix2d& d, Eigen::Matrix2d& inverse) {
+bool Invert(const Matrix2d& d, Matrix2d& inverse) {
   if (!(d(0, 0) > 0)) return false;
   const double factor = d(0, 1) / d(0, 0), rest = d(1, 1) - factor * d(0, 1);
   if (!(rest > 0)) return false;
@@ -35,6 +43,7 @@ void BlockCholesky::Analyze(const BlockMatrix& matrix) {
       }
     }
   }
+  FindParts(count);
   start_.assign(At(size) + 1, 0);
   for (int k = 0; k < size; ++k) start_[At(k) + 1] = start_[At(k)] + count[At(k)];
   row_.resize(At(start_.back()));
@@ -43,7 +52,7 @@ void BlockCholesky::Analyze(const BlockMatrix& matrix) {
   // Which blocks of row k of L are there: children before parents.
   columns_.clear();
   columns_.reserve(row_.size());
-  row_start_.assign(1, 0);
+  for (std::vector<int>& starts : part_start_) starts.clear();
   std::vector<int> end(start_.begin(), start_.end() - 1), path(At(size)), order(At(size));
   std::fill(seen.begin(), seen.end(), -1);
   for (int k = 0; k < size; ++k) {
@@ -57,33 +66,151 @@ void BlockCholesky::Analyze(const BlockMatrix& matrix) {
       }
       while (length > 0) order[At(--first)] = path[At(--length)];
     }
-    columns_.insert(columns_.end(), order.begin() + first, order.end());
-    row_start_.push_back(static_cast<int>(columns_.size()));
+    for (const int part : {kFirst, kSecond, kTop}) {
+      part_start_[part].push_back(static_cast<int>(columns_.size()));
+      std::copy_if(order.begin() + first, order.end(), std::back_inserter(columns_),
+                   [&](int i) { return part_[At(i)] == part; });
+    }
     for (; first < size; ++first) row_[At(end[At(order[At(first)])]++)] = k;
   }
+  part_start_[kFirst].push_back(static_cast<int>(columns_.size()));
+  block_count_of_top_ = 0;
+  for (int k : rows_of_[kTop]) block_count_of_top_ += At(End(kTop, k) - Begin(kTop, k));
+}
+
+// `count`: of the blocks below the diagonal, per column.
+void BlockCholesky::FindParts(const std::vector<int>& count) {
+  const int size = static_cast<int>(count.size());
+  constexpr int kManyColumns = 4000;
+  constexpr double kMostShare = 0.55;  // of the work of both groups
+  part_.assign(At(size), kTop);
+  std::vector<double> work(At(size), 0);  // of a subtree
+  std::vector<std::vector<int>> children(At(size));
+  using Subtree = std::pair<double, int>;
+  std::priority_queue<Subtree> subtrees;
+  double sum = 0;
+  for (int k = 0; k < size && size > kManyColumns; ++k) {
+    work[At(k)] += (1.0 + count[At(k)]) * (1.0 + count[At(k)]);
+    if (parent_[At(k)] >= 0) {
+      work[At(parent_[At(k)])] += work[At(k)];
+      children[At(parent_[At(k)])].push_back(k);
+    } else {
+      subtrees.push({work[At(k)], k});
+      sum += work[At(k)];
+    }
+  }
+  // The root of the largest subtree joins the top until the rest makes two groups that are about as large.
+  while (!subtrees.empty()) {
+    const auto [largest, root] = subtrees.top();
+    if (largest <= kMostShare * sum) {
+      auto rest = subtrees;
+      double of_part[kParts] = {0, 0, 0};
+      for (; !rest.empty(); rest.pop()) {
+        const int part = of_part[kFirst] > of_part[kSecond] ? kSecond : kFirst;
+        of_part[part] += rest.top().first;
+        part_[At(rest.top().second)] = part;
+      }
+      if (std::max(of_part[kFirst], of_part[kSecond]) <= kMostShare * sum) break;
+    }
+    subtrees.pop();
+    part_[At(root)] = kTop;
+    sum -= largest;
+    for (const int child : children[At(root)]) {
+      subtrees.push({work[At(child)], child});
+      sum += work[At(child)];
+    }
+  }
+  for (int k = size - 1; k >= 0; --k)
+    if (part_[At(k)] == kTop && parent_[At(k)] >= 0) part_[At(k)] = part_[At(parent_[At(k)])];
+  for (std::vector<int>& rows : rows_of_) rows.clear();
+  for (int k = 0; k < size; ++k) rows_of_[part_[At(k)]].push_back(k);
 }
 
 bool BlockCholesky::Factorize(const BlockMatrix& matrix) {
-  const int size = static_cast<int>(matrix.diagonal.size());
   std::vector<int> end(start_.begin(), start_.end() - 1);
-  std::vector<Eigen::Matrix2d> y(At(size), Eigen::Matrix2d::Zero());
-  for (int k = 0; k < size; ++k) {
+  std::vector<Update> updates(rows_of_[kFirst].empty() ? 0 : 2);
+  InParallel(static_cast<int>(updates.size()), {}, [&](int g, const std::function<void()>&) {
+    updates[At(g)] = FactorizeGroup(matrix, kFirst + g, end);
+  });
+  return FactorizeTop(matrix, updates, end);
+}
+
+// `end`: of what is there of each column.
+BlockCholesky::Update BlockCholesky::FactorizeGroup(const BlockMatrix& matrix, int group,
+                                                    std::vector<int>& end) {
+  Update update;
+  update.diagonal.reserve(rows_of_[kTop].size());
+  update.blocks.reserve(block_count_of_top_);
+  std::vector<Matrix2d> y(matrix.diagonal.size(), Matrix2d::Zero());
+  const auto load = [&](int k) {
     for (int p = matrix.start[At(k)]; p < matrix.start[At(k) + 1]; ++p)
-      y[At(matrix.row[At(p)])] = matrix.above[At(p)];
-    Eigen::Matrix2d d = matrix.diagonal[At(k)];
-    for (int c = row_start_[At(k)]; c < row_start_[At(k) + 1]; ++c) {
-      const int i = columns_[At(c)];
-      const Eigen::Matrix2d x = y[At(i)];
-      y[At(i)].setZero();
-      const int stop = end[At(i)]++;
-      for (int p = start_[At(i)]; p < stop; ++p) y[At(row_[At(p)])].noalias() -= l_[At(p)].lazyProduct(x);
-      const Eigen::Matrix2d turned = inverse_d_[At(i)] * x;
-      d.noalias() -= x.transpose().lazyProduct(turned);
-      l_[At(stop)] = turned.transpose();
+      if (part_[At(matrix.row[At(p)])] == group) y[At(matrix.row[At(p)])] = matrix.above[At(p)];
+  };
+  for (int k : rows_of_[group]) {
+    load(k);
+    Matrix2d d = matrix.diagonal[At(k)];
+    Eliminate(group, k, end, y, d);
+    update.is_positive = Invert(d, inverse_d_[At(k)]);
+    if (!update.is_positive) return update;
+  }
+  for (int k : rows_of_[kTop]) {
+    load(k);
+    Matrix2d d = Matrix2d::Zero();
+    Eliminate(group, k, end, y, d);
+    update.diagonal.push_back(d);
+    for (int c = Begin(kTop, k); c < End(kTop, k); ++c) {
+      Matrix2d& block = y[At(columns_[At(c)])];
+      update.blocks.push_back(block);
+      block.setZero();
     }
+  }
+  return update;
+}
+
+bool BlockCholesky::FactorizeTop(const BlockMatrix& matrix, const std::vector<Update>& updates,
+                                 std::vector<int>& end) {
+  for (const Update& update : updates)
+    if (!update.is_positive) return false;
+  std::vector<Matrix2d> y(matrix.diagonal.size(), Matrix2d::Zero());
+  std::size_t row = 0, first_block = 0;
+  for (int k : rows_of_[kTop]) {
+    for (int p = matrix.start[At(k)]; p < matrix.start[At(k) + 1]; ++p)
+      if (part_[At(matrix.row[At(p)])] == kTop) y[At(matrix.row[At(p)])] = matrix.above[At(p)];
+    Matrix2d d = matrix.diagonal[At(k)];
+    for (const Update& update : updates) {
+      std::size_t block = first_block;
+      for (int c = Begin(kTop, k); c < End(kTop, k); ++c) y[At(columns_[At(c)])] += update.blocks[block++];
+      d += update.diagonal[row];
+    }
+    first_block += At(End(kTop, k) - Begin(kTop, k));
+    ++row;
+    Eliminate(kTop, k, end, y, d);
     if (!Invert(d, inverse_d_[At(k)])) return false;
   }
   return true;
+}
+
+// The columns of a part in a row: their blocks of L from `y`, which is zero there then, and what they add to
+// the others and to the row's diagonal `d`.
+void BlockCholesky::Eliminate(int part, int row, std::vector<int>& end, std::vector<Matrix2d>& y,
+                              Matrix2d& d) {
+  // Known to stay where they are, which the compiler can't tell.
+  const int *const starts = start_.data(), *const rows = row_.data(), *const columns = columns_.data();
+  int* const ends = end.data();
+  Matrix2d *const l = l_.data(), *const blocks = y.data();
+  Matrix2d sum = d;
+  const int last = End(part, row);
+  for (int c = Begin(part, row); c < last; ++c) {
+    const int i = columns[c];
+    const Matrix2d x = blocks[i];
+    blocks[i].setZero();
+    const int stop = ends[i]++;
+    for (int p = starts[i]; p < stop; ++p) blocks[rows[p]].noalias() -= l[p].lazyProduct(x);
+    const Matrix2d turned = inverse_d_[At(i)] * x;
+    sum.noalias() -= x.transpose().lazyProduct(turned);
+    l[stop] = turned.transpose();
+  }
+  d = sum;
 }
 
 void BlockCholesky::Solve(std::vector<Eigen::Vector2d>& x) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -15,7 +16,9 @@ struct BlockMatrix {
 };
 
 /// L D L^T of symmetric positive definite block matrices with one pattern [Davis, "Algorithm 849", 2005, with
-/// blocks for numbers: that loads an index for eight products instead of one each].
+/// blocks for numbers: that loads an index for eight products instead of one each]. Of a large matrix two
+/// groups of subtrees of the elimination tree are factorized side by side, and what is above them, the top,
+/// after them.
 class BlockCholesky {
  public:
   /// Takes the pattern of `matrix`; its values don't matter yet.
@@ -28,12 +31,37 @@ class BlockCholesky {
   void Solve(std::vector<Eigen::Vector2d>& x) const;
 
  private:
-  std::vector<int> parent_;         // elimination tree, -1 at roots
-  std::vector<int> start_;          // of each column of L, and the end
-  std::vector<int> row_;            // of each block of L below the diagonal
-  std::vector<int> row_start_;      // of each row of L in columns_, and the end
-  std::vector<int> columns_;        // of the blocks in a row, in the order they are found in
-  std::vector<Eigen::Matrix2d> l_;  // those blocks
+  static constexpr int kTop = 0, kFirst = 1, kSecond = 2, kParts = 3;
+
+  // What a group adds to the rows of the top.
+  struct Update {
+    std::vector<Eigen::Matrix2d> blocks{};    // in the columns of the top, row by row
+    std::vector<Eigen::Matrix2d> diagonal{};  // per row
+    bool is_positive = true;                  // as far as the group is concerned
+  };
+
+  // The columns of a part in a row of L.
+  int Begin(int part, int row) const { return part_start_[part][static_cast<std::size_t>(row)]; }
+  int End(int part, int row) const {
+    if (part == kFirst) return Begin(kSecond, row);
+    return part == kSecond ? Begin(kTop, row) : Begin(kFirst, row + 1);
+  }
+
+  void FindParts(const std::vector<int>& count);
+  Update FactorizeGroup(const BlockMatrix& matrix, int group, std::vector<int>& end);
+  bool FactorizeTop(const BlockMatrix& matrix, const std::vector<Update>& updates, std::vector<int>& end);
+  void Eliminate(int part, int row, std::vector<int>& end, std::vector<Eigen::Matrix2d>& y,
+                 Eigen::Matrix2d& d);
+
+  std::vector<int> parent_;              // elimination tree, -1 at roots
+  std::vector<int> part_;                // per column: in a group, or in the top
+  std::vector<int> rows_of_[kParts];     // ascending
+  std::vector<int> part_start_[kParts];  // of each row of L in columns_, part by part; kFirst's: and the end
+  std::size_t block_count_of_top_ = 0;   // in its own rows and columns
+  std::vector<int> start_;               // of each column of L, and the end
+  std::vector<int> row_;                 // of each block of L below the diagonal
+  std::vector<int> columns_;             // of the blocks in a row, in the order they are found in
+  std::vector<Eigen::Matrix2d> l_;       // those blocks
   std::vector<Eigen::Matrix2d> inverse_d_;
 };
 

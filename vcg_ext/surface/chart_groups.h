@@ -14,6 +14,7 @@
 #include "common/progress.h"
 #include "surface/chart_parts.h"
 #include "surface/chart_trial.h"
+#include "surface/fine_checks.h"
 #include "surface/known_trials.h"
 #include "surface/seam_price.h"
 
@@ -242,6 +243,7 @@ struct ChartGroups {
   double seam_share = 1;    ///< of the price of seams: merges are taken in another order when it is less
   std::map<std::vector<int>, std::pair<double, ChartTrial>> trials;  ///< of parts: bound, trial
   KnownTrials fine_trials{};                                         ///< on the copy for checks
+  FineChecks fine_checks{};                                          ///< on it too
   std::vector<std::vector<int>> overlapping;                         ///< parts whose chart overlapped itself
   bool overlaps_stay = true;                                         ///< what holds such parts isn't tried
   std::set<std::pair<int, int>> apart;  ///< parts that are not to be in one chart: they would overlap, or a

@@ -170,14 +170,19 @@ class CheckedMerger {
 
   // Checks all new charts on the fine surface; returns those that fail.
   std::vector<Failure> Unfit() {
+    std::vector<Failure> failures;
     std::vector<int> unverified;
     std::vector<ChartPatch> patches;
     for (int c = 0; c < static_cast<int>(groups_.charts.size()); ++c) {
       auto& chart = groups_.charts[c];
-      if (chart.alive && !chart.verified) chart.verified = fitting_.count({groups_.bound, chart.parts}) > 0;
       if (!chart.alive || chart.verified) continue;
+      if (const auto known = groups_.fine_checks.Find(groups_.bound, chart.parts)) {
+        chart.verified = *known;
+        if (!*known) failures.push_back({c, {}});
+        continue;
+      }
       unverified.push_back(c);
-      patches.push_back(groups_.parts.FinePatch(groups_.charts[c].parts));
+      patches.push_back(groups_.parts.FinePatch(chart.parts));
     }
     constexpr size_t kMostOverlaps = 1000;
     std::vector<char> fits(patches.size());
@@ -194,11 +199,11 @@ class CheckedMerger {
           if (flat[k].ok) overlaps[k] = OverlapsInMap(flat[k].uv, open.mesh.triangles, kMostOverlaps);
           fits[k] = flat[k].ok && overlaps[k].empty();
         });
-    std::vector<Failure> failures;
     for (size_t k = 0; k < unverified.size(); ++k) {
-      groups_.charts[unverified[k]].verified = fits[k];
+      auto& chart = groups_.charts[unverified[k]];
+      chart.verified = fits[k];
+      if (fits[k] || overlaps[k].empty()) groups_.fine_checks.Add(groups_.bound, chart.parts, fits[k]);
       if (fits[k]) {
-        fitting_.insert({groups_.bound, groups_.charts[unverified[k]].parts});
         groups_.fine_trials.Add(patches[k].faces, std::move(flat[k]));
         continue;
       }
@@ -209,6 +214,8 @@ class CheckedMerger {
         if (p != q) failures.back().overlaps.insert({std::min(p, q), std::max(p, q)});
       }
     }
+    std::sort(failures.begin(), failures.end(),
+              [](const Failure& a, const Failure& b) { return a.chart < b.chart; });
     return failures;
   }
 
@@ -351,7 +358,6 @@ class CheckedMerger {
   ChartGroups<MeshType>& groups_;
   KnownFlattenings* const known_;
   GreedyMerger<MeshType> greedy_;
-  std::set<std::pair<double, std::vector<int>>> fitting_;  // bound and parts of charts that held
   int merges_with_darts_ = 0;
 };
 

@@ -145,9 +145,12 @@ class GreedyMerger {
   }
 
   bool IsFlatOnFine(const std::vector<int>& some) {
+    if (const auto known = groups_.fine_checks.Find(groups_.bound, some)) return *known;
     const ChartPatch patch = groups_.parts.FinePatch(some);
     TrialFlattening map;
     const bool flat = TryChart(patch, groups_.bound, groups_.Poll(), &map).flat;
+    // Of one that overlaps, CheckedMerger asks which parts do.
+    if (flat || map.overlaps == 0) groups_.fine_checks.Add(groups_.bound, some, flat);
     groups_.fine_trials.Add(patch.faces, std::move(map));
     return flat;
   }
