@@ -21,6 +21,7 @@
 #include "planar/stretch_descent.h"
 #include "planar/stretch_energy.h"
 #include "planar/vertex_block_system.h"
+#include "thread_count.h"
 
 namespace dcharts {
 namespace {
@@ -294,6 +295,45 @@ TEST(VertexBlockSystem, SolvesLikeADenseMatrix) {
     EXPECT_NEAR(solution[static_cast<std::size_t>(v)].real(), expected[2 * v], 1e-9);
     EXPECT_NEAR(solution[static_cast<std::size_t>(v)].imag(), expected[2 * v + 1], 1e-9);
   }
+}
+
+// As large as is factorized in two groups of columns.
+TEST(VertexBlockSystem, ALargeMatrixIsSolvedTheSameOnAnyNumberOfThreads) {
+  const ChartMesh chart = GridChart(90, 60, PlanePoint);
+  const int vertices = static_cast<int>(chart.positions.rows());
+  const PlanePoints known = [&] {
+    std::mt19937 random(3);
+    return RandomPoints(vertices, random);
+  }();
+  std::vector<PlanePoints> solutions;
+  for (const int count : {1, 2}) {
+    const test::Threads threads(count);
+    VertexBlockSystem system(vertices, chart.triangles);
+    PlanePoints right_hand_side(known.size(), Complex(0, 0));
+    // Springs along the edges, and to where each vertex is.
+    for (Eigen::Index t = 0; t < chart.triangles.rows(); ++t)
+      for (const auto& [k, l] : {std::pair{0, 1}, std::pair{0, 2}, std::pair{1, 2}}) {
+        const auto a = static_cast<std::size_t>(chart.triangles(t, k)),
+                   b = static_cast<std::size_t>(chart.triangles(t, l));
+        const double stiffness = 1 + static_cast<double>((a + b) % 3);
+        system.Add(t, k, k, Block2{stiffness, 0, 0, stiffness});
+        system.Add(t, l, l, Block2{stiffness, 0, 0, stiffness});
+        system.Add(t, k, l, Block2{-stiffness, 0, 0, -stiffness});
+        right_hand_side[a] += stiffness * (known[a] - known[b]);
+        right_hand_side[b] += stiffness * (known[b] - known[a]);
+      }
+    for (std::size_t v = 0; v < known.size(); ++v) {
+      system.AddDiagonal(static_cast<Eigen::Index>(v), 0.1);
+      right_hand_side[v] += 0.1 * known[v];
+    }
+    ASSERT_TRUE(system.Factorize());
+    solutions.push_back(system.Solve(right_hand_side));
+    for (std::size_t v = 0; v < known.size(); ++v)
+      ASSERT_NEAR(std::abs(solutions.back()[v] - known[v]), 0, 1e-9);
+    system.AddDiagonal(vertices / 3, -1000.0);
+    EXPECT_FALSE(system.Factorize());
+  }
+  EXPECT_TRUE(solutions[0] == solutions[1]);
 }
 
 Block2 ToBlock(const Eigen::Matrix2d& m) { return {m(0, 0), m(0, 1), m(1, 0), m(1, 1)}; }

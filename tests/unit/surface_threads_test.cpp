@@ -3,6 +3,8 @@
 #include "dcharts.h"
 
 #include <atomic>
+#include <chrono>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -77,6 +79,30 @@ TEST(Threads, LoopsWithinLoopsTakeNoMoreThanThereAre) {
     EXPECT_EQ(done, std::vector<int>(done.size(), 1));
     EXPECT_EQ(FreeThreads(), count - 1);
   }
+}
+
+TEST(Threads, OneThatWaitsLendsItsPlace) {
+  const test::Threads threads(2);
+  std::atomic<int> most{0};
+  std::atomic<bool> helps{false};
+  const auto caller = std::this_thread::get_id();
+  // The caller gets one of the two items and is done at once; the helper's waits for a helper of its own.
+  InParallel(2, {}, [&](int, const auto&) {
+    if (std::this_thread::get_id() == caller) {
+      while (!helps) std::this_thread::yield();
+      return;
+    }
+    EXPECT_EQ(FreeThreads(), 0);
+    helps = true;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (FreeThreads() == 0 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    most = FreeThreads();
+    std::atomic<int> helpers{0};
+    OnThreads(2, [&](bool calls) { helpers += calls ? 0 : 1; });
+    EXPECT_EQ(helpers, 1);
+  });
+  EXPECT_EQ(most, 1);
+  EXPECT_EQ(FreeThreads(), 1);
 }
 
 TEST(Threads, AnErrorStopsAllAndComesOut) {

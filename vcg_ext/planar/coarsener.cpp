@@ -50,6 +50,7 @@ class Coarsener {
       CollapseInBlocks(before / kFacesPerBlock + 1, goal);
       if (kMore * FaceCount() > before) break;
     }
+    CollapseInHalves(target_faces);
     CollapseInBlocks(1, target_faces);
   }
 
@@ -154,6 +155,18 @@ class Coarsener {
     }
   }
 
+  // The most of it, where it is worth while. Large halves have so little rim that hardly anything is to be
+  // made up for. Not the surface that segments are to be grown on: they came out worse on one made of halves.
+  void CollapseInHalves(int target_faces) {
+    constexpr int kManyOfChart = 20000, kManyOfSurface = 50000, kAtOnce = 8;
+    constexpr double kAboutAll = 1.05, kWorthWhile = 1.25;
+    const bool is_chart = history_ != nullptr;
+    if (!is_chart && ChartCount(task_.ids) < 2) return;
+    const int goal = std::max(FaceCount() / kAtOnce, static_cast<int>(kAboutAll * target_faces));
+    if (FaceCount() < (is_chart ? kManyOfChart : kManyOfSurface) || FaceCount() < kWorthWhile * goal) return;
+    CollapseInBlocks(2, goal);
+  }
+
   // Until about `goal` faces are left, each block by itself but all to the same cost; one block is exact.
   void CollapseInBlocks(int count, int goal) {
     const SurfaceBlocks blocks(task_, faces_, count);
@@ -174,7 +187,7 @@ class Coarsener {
   }
 
   void RunToOneCost(int goal, const std::vector<std::unique_ptr<EdgeCollapser>>& collapsers) const {
-    constexpr double kLeastCost = 1e-18, kMostCost = 1e3, kStep = 1.3;
+    constexpr double kLeastCost = 1e-18, kMostCost = 1e3, kStep = 1.15;
     double cost = kMostCost;
     for (const auto& collapser : collapsers) cost = std::min(cost, collapser->MedianCost());
     for (cost = std::max(cost, kLeastCost); cost < kMostCost; cost *= kStep) {

@@ -27,8 +27,8 @@ struct CoarsenedSurface {
 
 /// Collapses edges of a surface with charts, see CoarsenCharts: those that change the shape least first,
 /// until at most `target_faces` faces are left or no edge may be collapsed. A large surface is coarsened in
-/// blocks at first, on all threads; the blocks hang on the surface alone. `history` may be null, `poll` is
-/// called now and then and may throw.
+/// blocks at first, on all threads, a large chart in halves; these hang on the surface alone. `history` may
+/// be null, `poll` is called now and then and may throw.
 CoarsenedSurface Coarsened(const FannedSurface& surface, const ChartIds& ids, int target_faces,
                            CollapseHistory* history, const std::function<void()>& poll);
 

@@ -322,7 +322,7 @@ class CheckedMerger {
       const ChartPatch whole = coarse ? groups_.parts.CoarsePatch(both) : groups_.parts.FinePatch(both);
       const ChartPatch open = Opened(whole, cut_length);
       DartGoal goal;
-      goal.l2_stretch = coarse ? groups_.CoarseBound() : groups_.bound;
+      goal.l2_stretch = coarse ? groups_.CoarseBound() : BoundWithDarts();
       goal.linf_stretch = kNoBound;
       goal.most_darts = effort == Effort::kMost ? kManyDarts : kFewDarts;
       goal.longest = groups_.params.max_dart_percent / 100 * open.Diagonal();
@@ -345,6 +345,12 @@ class CheckedMerger {
       if (!coarse && known_) known_->AddDarts(open, goal, std::move(darted));
     }
     return true;
+  }
+
+  // Cut looks for the darts of a copy's chart anew, on the surface, and may come out a little worse.
+  double BoundWithDarts() const {
+    constexpr double kShareOnCopy = 0.85;
+    return known_ ? groups_.bound : 1 + kShareOnCopy * (groups_.bound - 1);
   }
 
   // Made once: BorderRefiner begins with it too.

@@ -16,6 +16,7 @@
 #include "surface/charts.h"
 #include "surface/charts_for.h"
 #include "surface/known_flattenings.h"
+#include "surface/merge_pieces.h"
 #include "surface/needed_cuts.h"
 #include "surface/open_chart.h"
 #include "surface/split_chart.h"
@@ -40,9 +41,11 @@ class StretchCutter {
   int Run(ChartsFor use, ChartIds& ids, SeamMask& seams, KnownFlattenings& known) {
     const bool by_stretch = params_.dart_by == DartMethod::kMeasuredStretch;
     done_.assign(surface_.FaceCount(), 0);
+    is_in_piece_.assign(surface_.FaceCount(), 0);
     bool lower_mean = use == ChartsFor::kAtlas && by_stretch && MayPart();
     for (bool again = true; again; lower_mean = false) {
       CutOthers(lower_mean, known, ids, seams);
+      if (MergePieces(ids, seams)) CutOthers(lower_mean, known, ids, seams);
       if (lower_mean) LowerMeanStretch();
       again = FinishAll(seams);
     }
@@ -156,11 +159,7 @@ class StretchCutter {
         continue;
       }
       const DartedChart& chart = cuts_[k].chart;
-      for (int h : chart.edges) {
-        const int s = chart.patch.SurfaceHalfEdge(h);
-        ClearSeam(seams, s);
-        ClearSeam(seams, surface_.Opposite(s));
-      }
+      ClearDarts(chart, seams);
       for (int f : chart.patch.faces) done_[f] = 0;
     }
     const bool any = finished.size() < cuts_.size();
@@ -189,7 +188,65 @@ class StretchCutter {
     if (!cuts.empty()) return true;
     if (!MayPart() || whole.faces.size() == 1) return false;
     PartChart(whole, Bisect(whole, [this] { progress_.Poll(); }), next_id++, ids, seams);
+    for (int f : whole.faces) is_in_piece_[f] = 1;
     return true;
+  }
+
+  // Charts that came from parting others, where they lie flat together; each is looked at once. Those that
+  // did are not done then; returns whether there are such.
+  bool MergePieces(ChartIds& ids, SeamMask& seams) {
+    std::vector<int> pieces;
+    for (int k = 0; k < static_cast<int>(cuts_.size()); ++k)
+      if (is_in_piece_[cuts_[k].chart.patch.faces.front()]) pieces.push_back(k);
+    std::fill(is_in_piece_.begin(), is_in_piece_.end(), 0);
+    if (pieces.size() < 2) return false;
+    SeamMask without_darts = seams;
+    std::vector<std::vector<int>> faces;
+    for (int k : pieces) {
+      ClearDarts(cuts_[k].chart, without_darts);
+      faces.push_back(cuts_[k].chart.patch.faces);
+    }
+    const std::vector<int> part_of =
+        PieceMerger<MeshType>(surface_, params_.StretchBound(), std::move(without_darts), progress_)
+            .Run(faces);
+    std::vector<int> piece_of(surface_.FaceCount(), -1);
+    for (size_t p = 0; p < pieces.size(); ++p)
+      for (int f : faces[p]) piece_of[f] = static_cast<int>(p);
+    std::vector<char> is_old(cuts_.size(), 0);
+    for (size_t p = 0; p < pieces.size(); ++p) {
+      const int whole = part_of[p];
+      if (whole == static_cast<int>(p)) continue;
+      for (int f : faces[p]) ids[f] = ids[faces[whole].front()];
+      is_old[pieces[p]] = is_old[pieces[whole]] = 1;
+    }
+    std::vector<Cut> others;
+    for (size_t k = 0; k < cuts_.size(); ++k) {
+      if (!is_old[k]) {
+        others.push_back(std::move(cuts_[k]));
+        continue;
+      }
+      ClearDarts(cuts_[k].chart, seams);
+      for (int f : cuts_[k].chart.patch.faces) {
+        done_[f] = 0;
+        for (int h = 3 * f; h < 3 * f + 3; ++h)
+          if (const int g = surface_.Neighbour(h); g >= 0 && ids[g] == ids[f] && piece_of[g] != piece_of[f])
+            ClearSeam(seams, h);
+      }
+    }
+    const bool any = others.size() < cuts_.size();
+    cuts_ = std::move(others);
+    if (!any) return false;
+    SplitAndCompact(surface_, ids, &seams);
+    JoinLoops(surface_, params_, progress_, ids, seams);
+    return true;
+  }
+
+  void ClearDarts(const DartedChart& chart, SeamMask& seams) const {
+    for (int h : chart.edges) {
+      const int s = chart.patch.SurfaceHalfEdge(h);
+      ClearSeam(seams, s);
+      ClearSeam(seams, surface_.Opposite(s));
+    }
   }
 
   DartGoal GoalOf(const ChartPatch& patch, double bound) const {
@@ -208,8 +265,9 @@ class StretchCutter {
   const SurfaceGraph<MeshType>& surface_;
   const Params& params_;
   Progress& progress_;
-  std::vector<char> done_;  // faces
-  std::vector<Cut> cuts_;   // all charts that are done, but perhaps for the finish
+  std::vector<char> done_;         // faces
+  std::vector<char> is_in_piece_;  // faces of charts that were parted, until MergePieces has seen them
+  std::vector<Cut> cuts_;          // all charts that are done, but perhaps for the finish
 };
 
 }  // namespace dcharts

@@ -135,6 +135,19 @@ DartedChart CutLargeUnfinished(const ChartPatch& patch, const DartGoal& goal,
   return best.finished ? best : FlatUncut(patch, goal, poll, known);
 }
 
+// A chart with the darts that a coarser one gets, finished; nothing where it doesn't reach the goal. Which
+// darts there are hangs on chance.
+std::optional<DartedChart> CutAsCoarser(const ChartPatch& patch, const DartGoal& goal,
+                                        const std::function<void()>& poll) {
+  constexpr int kManyTriangles = 8000;
+  if (patch.mesh.triangles.rows() < kManyTriangles) return std::nullopt;
+  const auto coarser = std::make_shared<CoarserCharts>(Normalized(patch.mesh));
+  DartedChart chart = CutLargeChart(patch, coarser->LastQuarter(poll), goal, poll, coarser);
+  if (chart.count == 0 || !FinishDarts(goal, poll, chart) || !(chart.flat.l2_stretch <= goal.l2_stretch))
+    return std::nullopt;
+  return chart;
+}
+
 // All darts, or, where the mean stretch needs some, these alone, by the map of the last dart's trial; of a
 // large chart all, by the figures of a coarser one. `known` must have the coarser charts of a large one.
 DartedChart CutDartsUnfinished(const ChartPatch& patch, const DartGoal& goal,
@@ -151,8 +164,12 @@ DartedChart CutDartsUnfinished(const ChartPatch& patch, const DartGoal& goal,
   if (!chart.flat.ok || CutConePoints(goal, poll, chart)) return chart;
   if (HasFinish(goal) && chart.flat.l2_stretch > goal.l2_stretch) {
     DartedChart darted = CutForMeanStretchAlone(goal, poll, patch, known.flat);
+    const bool reached = darted.flat.ok && darted.flat.l2_stretch <= goal.l2_stretch;
+    // One that may give up would be parted.
+    if (!reached && goal.may_give_up)
+      if (std::optional<DartedChart> other = CutAsCoarser(patch, goal, poll)) return std::move(*other);
     if (darted.count == 0) return chart;
-    darted.finished = !(darted.flat.ok && darted.flat.l2_stretch <= goal.l2_stretch);
+    darted.finished = !reached;
     // What a quick map doesn't reach, the atlas's may.
     return !darted.finished || FinishDarts(goal, poll, darted) ? darted : chart;
   }
