@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/half_edge.h"
+#include "common/parallel.h"
 #include "planar/vertex_descent.h"
 
 namespace dcharts {
@@ -97,21 +98,16 @@ CoarseChart::CoarseChart(const ChartMesh& chart, int target_faces, const std::fu
     mesh_.triangles(h / 3, h % 3) = new_vertex[At(left.vertex[At(h)])];
 }
 
-std::optional<PlanePoints> CoarseChart::Continued(const Points2& uv,
-                                                  const std::function<void()>& poll) const {
-  PlanePoints map(At(static_cast<int>(chart_.positions.rows())));
-  for (int v = 0; v < static_cast<int>(source_.size()); ++v) map[At(source_[At(v)])] = {uv(v, 0), uv(v, 1)};
-  const RestFloors floors = RestFloorsOf(chart_);
+bool CoarseChart::Continue(int begin, int end, const RestFloors& floors, const std::function<void()>& poll,
+                           PlanePoints& map) const {
   const StretchEnergy energy{StretchEnergy::Kind::kSander};
   std::vector<FanTriangle> fan;
-  int ring_end = static_cast<int>(history_.rings.size());
-  constexpr std::size_t kPollEvery = 4096;  // vertices
-  for (std::size_t s = history_.steps.size(); s-- > 0;) {
+  constexpr int kPollEvery = 4096;  // vertices
+  for (int s = end; s-- > begin;) {
     if (poll && s % kPollEvery == 0) poll();
-    const CollapseHistory::Step& step = history_.steps[s];
+    const CollapseHistory::Step& step = history_.steps[At(s)];
     const int* ring = history_.rings.data() + step.ring_begin;
-    const int size = ring_end - step.ring_begin;
-    ring_end = step.ring_begin;
+    const int size = RingEnd(s) - step.ring_begin;
     fan.clear();
     // Where the triangles want the vertex, each laid rigidly beside its edge of the ring.
     Complex wanted = 0;
@@ -137,11 +133,31 @@ std::optional<PlanePoints> CoarseChart::Continued(const Points2& uv,
     if (!std::isfinite(value)) {
       z = InsideKernel(fan);
       value = FanEnergy(energy, fan, z);
-      if (!std::isfinite(value)) return std::nullopt;
+      if (!std::isfinite(value)) return false;
     }
     constexpr int kSteps = 2;
     for (int k = 0; k < kSteps; ++k) ImproveVertex(energy, fan, z, value);
     map[At(step.vertex)] = z;
+  }
+  return true;
+}
+
+std::optional<PlanePoints> CoarseChart::Continued(const Points2& uv,
+                                                  const std::function<void()>& poll) const {
+  PlanePoints map(At(static_cast<int>(chart_.positions.rows())));
+  for (int v = 0; v < static_cast<int>(source_.size()); ++v) map[At(source_[At(v)])] = {uv(v, 0), uv(v, 1)};
+  const RestFloors floors = RestFloorsOf(chart_);
+  int end = static_cast<int>(history_.steps.size());
+  for (auto phase = history_.phases.rbegin(); phase != history_.phases.rend(); ++phase) {
+    std::vector<int> bounds = *phase;
+    bounds.push_back(end);
+    end = bounds.front();
+    const int count = static_cast<int>(phase->size());
+    std::vector<char> done(At(count), 0);
+    InParallel(count, poll, [&](int run, const std::function<void()>& poll_run) {
+      done[At(run)] = Continue(bounds[At(run)], bounds[At(run) + 1], floors, poll_run, map);
+    });
+    if (std::count(done.begin(), done.end(), 0) > 0) return std::nullopt;
   }
   return map;
 }

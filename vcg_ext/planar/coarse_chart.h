@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "planar/chart_mesh.h"
 #include "planar/coarsener.h"
 #include "planar/complex_plane.h"
+#include "planar/rest_shapes.h"
 
 namespace dcharts {
 
@@ -30,6 +32,16 @@ class CoarseChart {
   std::optional<PlanePoints> Continued(const Points2& uv, const std::function<void()>& poll) const;
 
  private:
+  // Where the ring of a step ends.
+  int RingEnd(int step) const {
+    const auto next = static_cast<std::size_t>(step) + 1;
+    return next < history_.steps.size() ? history_.steps[next].ring_begin
+                                        : static_cast<int>(history_.rings.size());
+  }
+  // Steps of one run, the last first; false when there is no room for a vertex.
+  bool Continue(int begin, int end, const RestFloors& floors, const std::function<void()>& poll,
+                PlanePoints& map) const;
+
   const ChartMesh& chart_;
   ChartMesh mesh_;
   std::vector<int> source_, source_face_, opposite_;

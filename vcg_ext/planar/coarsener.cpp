@@ -181,6 +181,7 @@ class Coarsener {
     InParallel(count, poll_, [&](int b, const std::function<void()>&) {
       blocks.WriteBack(b, *collapsers[b], task_, heir_);
     });
+    if (history_) history_->phases.emplace_back();
     for (int b = 0; b < count && history_; ++b) blocks.AppendHistory(b, collapsers[b]->History(), *history_);
     faces_.erase(std::remove_if(faces_.begin(), faces_.end(), [&](int f) { return task_.vertex[3 * f] < 0; }),
                  faces_.end());

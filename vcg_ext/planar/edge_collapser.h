@@ -42,6 +42,8 @@ struct CollapseHistory {
   };
   std::vector<Step> steps;
   std::vector<int> rings;
+  /// Where runs of steps begin, by phases: a step hangs on those of its run and of other phases only.
+  std::vector<std::vector<int>> phases;
 };
 
 /// Collapses edges, the cheapest first.

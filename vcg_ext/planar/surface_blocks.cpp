@@ -105,6 +105,7 @@ void SurfaceBlocks::WriteBack(int block, const EdgeCollapser& done, CollapseTask
 void SurfaceBlocks::AppendHistory(int block, const CollapseHistory& steps, CollapseHistory& all) const {
   const std::vector<int>& inner = inner_[block];
   const int inner_count = static_cast<int>(inner.size()), offset = static_cast<int>(all.rings.size());
+  all.phases.back().push_back(static_cast<int>(all.steps.size()));
   for (const CollapseHistory::Step& step : steps.steps)
     all.steps.push_back({inner[step.vertex], offset + step.ring_begin, step.closed});
   for (int v : steps.rings) all.rings.push_back(v < inner_count ? inner[v] : rim_[block][v - inner_count]);

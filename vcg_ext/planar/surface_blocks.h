@@ -24,7 +24,7 @@ class SurfaceBlocks {
   /// What became of it is written to the surface. `heir`: per face of the surface, of those that are gone.
   void WriteBack(int block, const EdgeCollapser& done, CollapseTask& surface, std::vector<int>& heir) const;
 
-  /// With the surface's numbers.
+  /// With the surface's numbers, as a run of the last phase.
   void AppendHistory(int block, const CollapseHistory& steps, CollapseHistory& all) const;
 
  private:
