@@ -95,4 +95,26 @@ void InParallel(int count, const std::function<void()>& poll, const Work& work) 
   ShareOut(count, ask, work);
 }
 
+/// The first k of 0..count-1 for which work(k, poll) returns true, else `count`. Those after it are tried
+/// ahead on threads that are free, and given up by `poll`; they must write nothing that the result hangs on.
+template <class Work>
+int FirstThat(int count, const std::function<void()>& poll, const Work& work) {
+  struct GivenUp {};
+  std::atomic<int> first{count};
+  InParallel(count, poll, [&](int k, const std::function<void()>& poll_item) {
+    const auto poll_or_give_up = [&] {
+      poll_item();
+      if (k > first) throw GivenUp();
+    };
+    try {
+      if (k > first || !work(k, poll_or_give_up)) return;
+    } catch (const GivenUp&) {
+      return;
+    }
+    for (int known = first; k < known && !first.compare_exchange_weak(known, k);) {
+    }
+  });
+  return first;
+}
+
 }  // namespace dcharts

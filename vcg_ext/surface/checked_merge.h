@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -262,19 +263,26 @@ class CheckedMerger {
           if (stretch > 0 && stretch < kWorthTrying) pairs.push_back({stretch, a, b});
         }
       std::sort(pairs.begin(), pairs.end());
-      bool merged = false;
-      for (const auto& [stretch, a, b] : pairs) {
-        ChartTrial both = trials.at({a, b});
-        if (!LiesFlatWithDarts(a, b, effort, both.cut_length)) {
-          failed.insert({a, b});
-          continue;
-        }
-        groups_.charts[groups_.Join(a, b, both)].verified = true;
-        merged = true;
-        ++merges_with_darts_;
-        break;
-      }
-      if (!merged) return;
+      std::vector<WithDarts> tried(pairs.size());
+      const auto lies_flat = [&](int k, const std::function<void()>& poll) {
+        const auto& [stretch, a, b] = pairs[k];
+        tried[k] = TryWithDarts(a, b, effort, poll);
+        return tried[k].lies_flat;
+      };
+      const int count = static_cast<int>(pairs.size());
+      int first = 0;
+      if (known_)
+        while (first < count && !lies_flat(first, groups_.Poll())) ++first;
+      else  // each takes long
+        first = FirstThat(count, groups_.Poll(), lies_flat);
+      for (int k = 0; k < first; ++k) failed.insert({std::get<1>(pairs[k]), std::get<2>(pairs[k])});
+      if (first == count) return;
+      const auto& [stretch, a, b] = pairs[first];
+      ChartTrial both = trials.at({a, b});
+      both.cut_length = tried[first].cut_length;
+      if (known_) known_->AddDarts(tried[first].open, tried[first].goal, std::move(tried[first].darted));
+      groups_.charts[groups_.Join(a, b, both)].verified = true;
+      ++merges_with_darts_;
     }
   }
 
@@ -304,47 +312,64 @@ class CheckedMerger {
   }
 
   // Its parts can be drawn apart, which must not crumple it.
-  bool ComesApart(const DartedChart& chart, double l2_bound) {
+  static bool ComesApart(const DartedChart& chart, double l2_bound, const std::function<void()>& poll) {
     constexpr double kWorstStretch = 1.8;
-    const auto apart = LayApart(chart.patch.mesh, chart.flat.uv, l2_bound, ApartMapFor::kAtlas,
-                                groups_.Poll(), chart.coarser.get());
+    const auto apart =
+        LayApart(chart.patch.mesh, chart.flat.uv, l2_bound, ApartMapFor::kAtlas, poll, chart.coarser.get());
     return apart && apart->linf_stretch <= kWorstStretch;
   }
 
-  // `cut_length` is set to that of all cuts, model units.
-  bool LiesFlatWithDarts(int a, int b, Effort effort, double& cut_length) {
+  // Two charts as one, with darts.
+  struct WithDarts {
+    bool lies_flat = false;
+    double cut_length = 0;  // of all cuts, model units
+    // When it does, on the copy for checks:
+    ChartPatch open{};
+    DartGoal goal{};
+    DartedChart darted{};
+  };
+
+  WithDarts TryWithDarts(int a, int b, Effort effort, const std::function<void()>& poll) {
     constexpr int kFewDarts = 4, kManyDarts = 8;
     const std::vector<int> both = groups_.PartsOfBoth(a, b);
     const auto &one = groups_.charts[a], &other = groups_.charts[b];
     const double longest =
         one.borders.at(b) * groups_.parts.Unit() + one.trial.cut_length + other.trial.cut_length;
+    WithDarts result;
     for (const bool coarse : {true, false}) {
-      const ChartPatch whole = coarse ? groups_.parts.CoarsePatch(both) : groups_.parts.FinePatch(both);
-      const ChartPatch open = Opened(whole, cut_length);
-      DartGoal goal;
+      const ChartPatch whole = PatchOf(both, coarse);
+      result.open = Opened(whole, result.cut_length);
+      DartGoal& goal = result.goal;
       goal.l2_stretch = coarse ? groups_.CoarseBound() : BoundWithDarts();
       goal.linf_stretch = kNoBound;
       goal.most_darts = effort == Effort::kMost ? kManyDarts : kFewDarts;
-      goal.longest = groups_.params.max_dart_percent / 100 * open.Diagonal();
+      goal.longest = groups_.params.max_dart_percent / 100 * result.open.Diagonal();
       // No bound on the length here: Cut has none and is to find the same darts.
       KnownOfChart uncut;
       Flattening flat;
-      if (!coarse && !IsLargeChart(open.mesh)) {
-        flat = FlatOf(FineTrial(whole, open));
+      if (!coarse && !IsLargeChart(result.open.mesh)) {
+        flat = FlatOf(FineTrial(whole, result.open, poll));
         uncut.flat = &flat;
       }
-      DartedChart darted = CutStretchDarts(open, goal, groups_.Poll(), uncut);
-      for (int h : darted.edges) cut_length += open.Length(h);
+      DartedChart& darted = result.darted;
+      darted = CutStretchDarts(result.open, goal, poll, uncut);
+      for (int h : darted.edges) result.cut_length += result.open.Length(h);
       constexpr double kRounding = 1e-6;  // darts to the corners of a box may be just as long as its rim
-      if (cut_length > (1 + kRounding) * longest) return false;
-      if (!darted.flat.ok || darted.flat.l2_stretch > goal.l2_stretch) return false;
+      if (result.cut_length > (1 + kRounding) * longest) return result;
+      if (!darted.flat.ok || darted.flat.l2_stretch > goal.l2_stretch) return result;
       if (OverlapsItself(darted.flat.uv, darted.patch.mesh.triangles)) {
-        if (effort == Effort::kUsual) return false;
-        if (!coarse && !ComesApart(darted, goal.l2_stretch)) return false;
+        if (effort == Effort::kUsual) return result;
+        if (!coarse && !ComesApart(darted, goal.l2_stretch, poll)) return result;
       }
-      if (!coarse && known_) known_->AddDarts(open, goal, std::move(darted));
     }
-    return true;
+    result.lies_flat = true;
+    return result;
+  }
+
+  // On the copy for trials, or that for checks.
+  ChartPatch PatchOf(const std::vector<int>& parts, bool coarse) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return coarse ? groups_.parts.CoarsePatch(parts) : groups_.parts.FinePatch(parts);
   }
 
   // Cut looks for the darts of a copy's chart anew, on the surface, and may come out a little worse.
@@ -354,9 +379,14 @@ class CheckedMerger {
   }
 
   // Made once: BorderRefiner begins with it too.
-  TrialFlattening FineTrial(const ChartPatch& whole, const ChartPatch& open) {
-    if (const TrialFlattening* known = groups_.fine_trials.Find(whole.faces)) return *known;
-    TrialFlattening trial = TrialFlatten(open.mesh, {}, groups_.Poll());
+  TrialFlattening FineTrial(const ChartPatch& whole, const ChartPatch& open,
+                            const std::function<void()>& poll) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (const TrialFlattening* known = groups_.fine_trials.Find(whole.faces)) return *known;
+    }
+    TrialFlattening trial = TrialFlatten(open.mesh, {}, poll);
+    const std::lock_guard<std::mutex> lock(mutex_);
     groups_.fine_trials.Add(whole.faces, trial);
     return trial;
   }
@@ -364,6 +394,7 @@ class CheckedMerger {
   ChartGroups<MeshType>& groups_;
   KnownFlattenings* const known_;
   GreedyMerger<MeshType> greedy_;
+  std::mutex mutex_;  // of the copies, and of fine_trials
   int merges_with_darts_ = 0;
 };
 
