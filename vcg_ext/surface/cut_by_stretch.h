@@ -125,21 +125,43 @@ class StretchCutter {
                      [](const auto& a, const auto& b) { return a.first > b.first; });
     constexpr int kMostFailures = 12;
     int failures = 0;
-    for (size_t n = 0; n < charts.size() && excess > 0 && failures < kMostFailures; ++n) {
+    for (size_t n = 0; n < charts.size() && excess > 0 && failures < kMostFailures;) {
       progress_.Poll();
-      const auto& [before, k] = charts[n];
-      Cut& cut = cuts_[k];
-      DartGoal goal = GoalOf(cut.chart.patch, halfway);
-      goal.may_give_up = false;
-      DartedChart darted = cut.chart;
-      if (!AddMeanDarts(
-              goal, [this] { progress_.Poll(); }, darted)) {
-        ++failures;
-        continue;
+      // A large chart takes long: others are tried ahead, unless the first one turns out to be enough.
+      const bool is_large = IsLargeChart(cuts_[charts[n].second].chart.patch.mesh);
+      const size_t ahead = is_large ? static_cast<size_t>(FreeThreads()) : 0;
+      std::vector<std::optional<Cut>> lower(std::min(1 + ahead, charts.size() - n));
+      FirstThat(
+          static_cast<int>(lower.size()), [this] { progress_.Poll(); },
+          [&](int k, const std::function<void()>& poll) {
+            const Cut& cut = cuts_[charts[n + k].second];
+            lower[k] = WithMeanDarts(cut, halfway, poll);
+            return k == 0 && lower[0] && excess + Gained(*lower[0], cut) <= 0;
+          });
+      for (size_t k = 0; k < lower.size() && excess > 0 && failures < kMostFailures; ++k, ++n) {
+        Cut& cut = cuts_[charts[n].second];
+        if (!lower[k]) {
+          ++failures;
+          continue;
+        }
+        excess += Gained(*lower[k], cut);
+        lower[k]->without = std::move(cut.chart);
+        cut = std::move(*lower[k]);
       }
-      excess += darted.patch.Area() * (darted.flat.l2_stretch - before);
-      cut = {std::move(darted), goal, std::move(cut.chart)};
     }
+  }
+
+  // A chart with more darts; nothing when none helps.
+  std::optional<Cut> WithMeanDarts(const Cut& cut, double l2_bound, const std::function<void()>& poll) const {
+    Cut lower{cut.chart, GoalOf(cut.chart.patch, l2_bound), std::nullopt};
+    lower.goal.may_give_up = false;
+    if (!AddMeanDarts(lower.goal, poll, lower.chart)) return std::nullopt;
+    return lower;
+  }
+
+  // L2 stretch times area.
+  static double Gained(const Cut& cut, const Cut& before) {
+    return cut.chart.patch.Area() * (cut.chart.flat.l2_stretch - before.chart.flat.l2_stretch);
   }
 
   // Finishes all that are not. Those that can't be are not done then; returns whether there are such.
