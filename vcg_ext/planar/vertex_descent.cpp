@@ -113,21 +113,41 @@ double VertexSweeps::Step(const StretchEnergy& energy, int vertex, std::vector<F
   return before - after;
 }
 
+std::vector<std::vector<int>> VertexSweeps::Halves() const {
+  const int count = static_cast<int>(first_.size()) - 1, middle = count / 2;
+  std::vector<std::vector<int>> parts(3);
+  for (int v = 0; v < count; ++v) {
+    bool inside = true;
+    for (int k = first_[At(v)]; k < first_[At(v) + 1]; ++k)
+      for (int i = 0; i < 3; ++i)
+        inside = inside && (triangles_(corners_[At(k)] / 3, i) < middle) == (v < middle);
+    parts[inside ? (v < middle ? 0 : 1) : 2].push_back(v);
+  }
+  return parts;
+}
+
 void VertexSweeps::EvenOut(const std::function<void()>& poll, PlanePoints& uv) const {
   constexpr int kMostSweeps = 10;
-  constexpr double kLittle = 1e-2;  // share of the energy
-  constexpr int kPollEvery = 4096;  // vertices
+  constexpr double kLittle = 1e-2;          // share of the energy
+  constexpr std::size_t kPollEvery = 4096;  // vertices
   const StretchEnergy energy{StretchEnergy::Kind::kSander};
   double value = MapEnergy(energy, triangles_, shapes_, uv);
-  std::vector<FanTriangle> fan;
+  const std::vector<std::vector<int>> parts = Halves();
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-    double gain = 0;
-    for (int v = 0; v < static_cast<int>(uv.size()); ++v) {
-      if (poll && v % kPollEvery == 0) poll();
-      gain += Step(energy, v, fan, uv);
-    }
-    value -= gain;
-    if (!(gain > kLittle * value)) return;
+    double gain[3] = {0, 0, 0};
+    const auto step_all = [&](int part, const std::function<void()>& poll_part) {
+      std::vector<FanTriangle> fan;
+      const std::vector<int>& vertices = parts[At(part)];
+      for (std::size_t k = 0; k < vertices.size(); ++k) {
+        if (poll_part && k % kPollEvery == 0) poll_part();
+        gain[part] += Step(energy, vertices[k], fan, uv);
+      }
+    };
+    InParallel(2, poll, step_all);
+    step_all(2, poll);
+    const double sum = gain[0] + gain[1] + gain[2];
+    value -= sum;
+    if (!(sum > kLittle * value)) return;
   }
 }
 

@@ -48,6 +48,9 @@ class VertexSweeps {
   /// Per triangle TriangleContraction, 0 for slivers.
   std::vector<double> Contractions(const std::function<void()>& poll, const PlanePoints& uv) const;
 
+  /// All vertices: two halves that share no triangle, and those between them.
+  std::vector<std::vector<int>> Halves() const;
+
   /// Vertices in groups that hang together over triangles; in each they keep their order. A step of a vertex
   /// in one group does nothing to another.
   std::vector<std::vector<int>> Clusters(const std::vector<int>& vertices) const;
