@@ -299,7 +299,7 @@ TEST(VertexBlockSystem, SolvesLikeADenseMatrix) {
 
 // As large as is factorized in two groups of columns.
 TEST(VertexBlockSystem, ALargeMatrixIsSolvedTheSameOnAnyNumberOfThreads) {
-  const ChartMesh chart = GridChart(90, 60, PlanePoint);
+  const ChartMesh chart = GridChart(120, 100, PlanePoint);
   const int vertices = static_cast<int>(chart.positions.rows());
   const PlanePoints known = [&] {
     std::mt19937 random(3);

@@ -52,7 +52,10 @@ void BlockCholesky::Analyze(const BlockMatrix& matrix) {
   // Which blocks of row k of L are there: children before parents.
   columns_.clear();
   columns_.reserve(row_.size());
-  for (std::vector<int>& starts : part_start_) starts.clear();
+  for (std::vector<int>& starts : part_start_) {
+    starts.clear();
+    starts.reserve(At(size) + 1);
+  }
   std::vector<int> end(start_.begin(), start_.end() - 1), path(At(size)), order(At(size));
   std::fill(seen.begin(), seen.end(), -1);
   for (int k = 0; k < size; ++k) {
@@ -68,8 +71,12 @@ void BlockCholesky::Analyze(const BlockMatrix& matrix) {
     }
     for (const int part : {kFirst, kSecond, kTop}) {
       part_start_[part].push_back(static_cast<int>(columns_.size()));
-      std::copy_if(order.begin() + first, order.end(), std::back_inserter(columns_),
-                   [&](int i) { return part_[At(i)] == part; });
+      if (rows_of_[part].empty()) continue;
+      if (rows_of_[part].size() == At(size))
+        columns_.insert(columns_.end(), order.begin() + first, order.end());
+      else
+        std::copy_if(order.begin() + first, order.end(), std::back_inserter(columns_),
+                     [&](int i) { return part_[At(i)] == part; });
     }
     for (; first < size; ++first) row_[At(end[At(order[At(first)])]++)] = k;
   }
@@ -81,15 +88,23 @@ void BlockCholesky::Analyze(const BlockMatrix& matrix) {
 // `count`: of the blocks below the diagonal, per column.
 void BlockCholesky::FindParts(const std::vector<int>& count) {
   const int size = static_cast<int>(count.size());
-  constexpr int kManyColumns = 4000;
-  constexpr double kMostShare = 0.55;  // of the work of both groups
+  constexpr int kManyColumns = 10000;
   part_.assign(At(size), kTop);
+  if (size > kManyColumns) FindGroups(count);
+  for (std::vector<int>& rows : rows_of_) rows.clear();
+  for (int k = 0; k < size; ++k) rows_of_[part_[At(k)]].push_back(k);
+}
+
+// The root of the largest subtree joins the top until the rest makes two groups that are about as large.
+void BlockCholesky::FindGroups(const std::vector<int>& count) {
+  const int size = static_cast<int>(count.size());
+  constexpr double kMostShare = 0.55;     // of the work of both groups
   std::vector<double> work(At(size), 0);  // of a subtree
   std::vector<std::vector<int>> children(At(size));
   using Subtree = std::pair<double, int>;
   std::priority_queue<Subtree> subtrees;
   double sum = 0;
-  for (int k = 0; k < size && size > kManyColumns; ++k) {
+  for (int k = 0; k < size; ++k) {
     work[At(k)] += (1.0 + count[At(k)]) * (1.0 + count[At(k)]);
     if (parent_[At(k)] >= 0) {
       work[At(parent_[At(k)])] += work[At(k)];
@@ -99,7 +114,6 @@ void BlockCholesky::FindParts(const std::vector<int>& count) {
       sum += work[At(k)];
     }
   }
-  // The root of the largest subtree joins the top until the rest makes two groups that are about as large.
   while (!subtrees.empty()) {
     const auto [largest, root] = subtrees.top();
     if (largest <= kMostShare * sum) {
@@ -122,8 +136,6 @@ void BlockCholesky::FindParts(const std::vector<int>& count) {
   }
   for (int k = size - 1; k >= 0; --k)
     if (part_[At(k)] == kTop && parent_[At(k)] >= 0) part_[At(k)] = part_[At(parent_[At(k)])];
-  for (std::vector<int>& rows : rows_of_) rows.clear();
-  for (int k = 0; k < size; ++k) rows_of_[part_[At(k)]].push_back(k);
 }
 
 bool BlockCholesky::Factorize(const BlockMatrix& matrix) {

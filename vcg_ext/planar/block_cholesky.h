@@ -48,6 +48,7 @@ class BlockCholesky {
   }
 
   void FindParts(const std::vector<int>& count);
+  void FindGroups(const std::vector<int>& count);
   Update FactorizeGroup(const BlockMatrix& matrix, int group, std::vector<int>& end);
   bool FactorizeTop(const BlockMatrix& matrix, const std::vector<Update>& updates, std::vector<int>& end);
   void Eliminate(int part, int row, std::vector<int>& end, std::vector<Eigen::Matrix2d>& y,
