@@ -273,6 +273,21 @@ TEST(StretchDarts, WhatOverlapsItselfIsNotFinished) {
   EXPECT_EQ(chart.flat.uv.rows(), 0) << "it is as it was";
 }
 
+TEST(StretchDarts, WhatItsOwnDoNotSaveThoseOfACoarserChartMay) {
+  const ChartPatch patch = TestSurface(shapes::SphericalCap(48, 1.57)).WholePatch();
+  ASSERT_FALSE(IsLargeChart(patch.mesh));
+  DartGoal goal = Goal(1.01, 1.3, 0.15 * patch.Diagonal());
+  goal.may_give_up = false;  // not parted whatever comes: no more is tried
+  const DartedChart own = CutStretchDarts(patch, goal, [] {});
+  EXPECT_GT(own.flat.l2_stretch, goal.l2_stretch);
+  goal.may_give_up = true;
+  const DartedChart saved = CutStretchDarts(patch, goal, [] {});
+  EXPECT_TRUE(saved.finished);
+  EXPECT_LE(saved.flat.l2_stretch, goal.l2_stretch);
+  EXPECT_FALSE(Overlaps(saved));
+  for (int h : saved.edges) EXPECT_GE(patch.opposite[h], 0);
+}
+
 TEST(StretchDarts, ALargeChartThatLapsOverALittleIsDrawnApart) {
   for (const double turns : {1.02, 1.5}) {
     DartedChart chart = Uncut(TestSurface(test::Ramp(turns, 600, 27)).WholePatch());

@@ -30,7 +30,7 @@ CoarseSurface CoarsenFanned(const FannedSurface& surface, const ChartIds& ids, i
 
 /// Collapses edges, those that change the shape least first (quadric error [Garland and Heckbert 1997]),
 /// until at most `target_faces` faces are left or no edge may be collapsed; at once with all faces when there
-/// are no more than that. Above 400,000 faces, blocks of faces that follow each other go first. Meant for
+/// are no more than that. A large surface goes in blocks or halves first, see Coarsened. Meant for
 /// trials: what a chart's flattening costs is nearly the same on the coarse surface.
 ///
 /// Charts keep their topology and their neighbours. Where three or more charts or borders meet, and where the

@@ -17,7 +17,7 @@
 
 namespace dcharts {
 
-/// Cuts inside charts (Section 3.3, "Darts and gussets"). Seams only ever get more.
+/// Cuts inside charts (Section 3.3, "Darts and gussets").
 template <class MeshType>
 class ChartCutter {
  public:
