@@ -355,11 +355,11 @@ class CheckedMerger {
       darted = CutStretchDarts(result.open, goal, poll, uncut);
       for (int h : darted.edges) result.cut_length += result.open.Length(h);
       constexpr double kRounding = 1e-6;  // darts to the corners of a box may be just as long as its rim
-      if (result.cut_length > (1 + kRounding) * longest) return result;
-      if (!darted.flat.ok || darted.flat.l2_stretch > goal.l2_stretch) return result;
+      if (result.cut_length > (1 + kRounding) * longest) return {};
+      if (!darted.flat.ok || darted.flat.l2_stretch > goal.l2_stretch) return {};
       if (OverlapsItself(darted.flat.uv, darted.patch.mesh.triangles)) {
-        if (effort == Effort::kUsual) return result;
-        if (!coarse && !ComesApart(darted, goal.l2_stretch, poll)) return result;
+        if (effort == Effort::kUsual) return {};
+        if (!coarse && !ComesApart(darted, goal.l2_stretch, poll)) return {};
       }
     }
     result.lies_flat = true;

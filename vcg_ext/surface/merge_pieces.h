@@ -10,6 +10,7 @@
 
 #include "common/parallel.h"
 #include "common/progress.h"
+#include "surface/chart_groups.h"
 #include "surface/chart_trial.h"
 #include "surface/charts.h"
 
@@ -37,9 +38,7 @@ class PieceMerger {
       });
       const auto [a, b] = *longest;
       for (int h : borders_[*longest].half_edges) ClearSeam(seams_, h);
-      std::vector<int> both(faces_[a].size() + faces_[b].size());
-      std::merge(faces_[a].begin(), faces_[a].end(), faces_[b].begin(), faces_[b].end(), both.begin());
-      faces_[a] = std::move(both);
+      faces_[a] = ChartGroups<MeshType>::Joined(faces_[a], faces_[b]);
       faces_[b].clear();
       for (int& part : part_of) part = part == b ? a : part;
       const auto is_old = [&](const Pair& pair) {
@@ -83,11 +82,9 @@ class PieceMerger {
     for (const auto& [pair, border] : borders_) {
       if (!tried_.insert(pair).second) continue;
       for (int h : border.half_edges) ClearSeam(seams_, h);
-      std::vector<int> both(faces_[pair.first]);
-      both.insert(both.end(), faces_[pair.second].begin(), faces_[pair.second].end());
-      std::sort(both.begin(), both.end());
       pairs.push_back(pair);
-      patches.push_back(extractor.Extract(both));
+      patches.push_back(
+          extractor.Extract(ChartGroups<MeshType>::Joined(faces_[pair.first], faces_[pair.second])));
       for (int h : border.half_edges) SetSeam(seams_, h);
     }
     std::vector<char> is_flat(pairs.size(), 0);
