@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <cstdlib>
 #include <exception>
+#include <mutex>
 #include <new>
 #include <system_error>
 #include <thread>
@@ -25,9 +28,19 @@ namespace {
 // Those of all calls, one within another too. A helper counts until it has no more work, not until all have.
 std::atomic<int> helpers_at_work{0};
 
+// A spare thread that rests waits here for a helper to end.
+std::mutex rest_mutex;
+std::condition_variable helper_ended;
+std::atomic<int> resting{0};
+
+// This is a spare thread or a helper of one.
+thread_local bool is_spare = false;
+
+int MostHelpers() { return ThreadCount() - (is_spare ? 2 : 1); }
+
 // How many of the helpers wanted are free; they are at work from now on.
 int TakeHelpers(int wanted) {
-  const int most = ThreadCount() - 1;
+  const int most = MostHelpers();
   int at_work = helpers_at_work;
   for (;;) {
     const int taken = std::min(wanted, most - at_work);
@@ -36,27 +49,41 @@ int TakeHelpers(int wanted) {
   }
 }
 
-// Starts threads and keeps them waiting until all there are have been started. A thread's first exception
-// needs memory of its own, and where there is none the C library ends the program. So each thread takes it
-// before any is at work, from what is let go of just before: so much that it comes from the system and goes
-// back to it.
+void ReturnHelpers(int count) {
+  helpers_at_work -= count;
+  if (resting > 0) helper_ended.notify_all();
+}
+
+// A thread's first exception needs memory of its own, and where there is none the C library ends the program.
+// So each thread takes it before it is at work (`is_ready`), from what is let go of just before: so much that
+// it comes from the system and goes back to it. Throws where the system gives no thread or has no memory.
+template <class Work>
+std::thread Started(const Work& work) {
+  constexpr std::size_t kReserve = 40 << 20;
+  std::atomic<bool> is_ready{false};
+  ::operator delete(::operator new(kReserve));
+  std::thread thread([&is_ready, work] {
+    static_cast<void>(std::uncaught_exceptions());
+    is_ready = true;
+    work();
+  });
+  while (!is_ready) std::this_thread::yield();
+  return thread;
+}
+
+// Starts threads and keeps them waiting until all there are have been started.
 class HeldThreads {
  public:
   HeldThreads(int count, const std::function<void(bool)>& work) {
-    constexpr std::size_t kReserve = 40 << 20;
     try {
       threads_.reserve(static_cast<std::size_t>(count));
-      for (int k = 0; k < count; ++k) {
-        ::operator delete(::operator new(kReserve));
-        threads_.emplace_back([this, &work] {
-          static_cast<void>(std::uncaught_exceptions());
-          ++ready_;
+      for (int k = 0; k < count; ++k)
+        threads_.push_back(Started([this, &work, for_spare = is_spare] {
+          is_spare = for_spare;
           while (!go_) std::this_thread::yield();
           work(false);
-          --helpers_at_work;
-        });
-        while (ready_ <= k) std::this_thread::yield();
-      }
+          ReturnHelpers(1);
+        }));
     } catch (const std::system_error&) {
     } catch (const std::bad_alloc&) {
     }
@@ -70,18 +97,42 @@ class HeldThreads {
   }
 
  private:
-  std::atomic<int> ready_{0};
   std::atomic<bool> go_{false};
   std::vector<std::thread> threads_;
 };
 
 }  // namespace
 
-WaitsForHelpers::WaitsForHelpers() { --helpers_at_work; }
+WaitsForHelpers::WaitsForHelpers() { ReturnHelpers(1); }
 
 WaitsForHelpers::~WaitsForHelpers() { ++helpers_at_work; }
 
-int FreeThreads() { return std::max(0, ThreadCount() - 1 - helpers_at_work); }
+SpareThread::SpareThread(const std::function<void()>& work) {
+  if (ThreadCount() < 2) return;
+  try {
+    thread_ = Started([work] {
+      is_spare = true;
+      work();
+    });
+  } catch (const std::system_error&) {
+  } catch (const std::bad_alloc&) {
+  }
+}
+
+SpareThread::~SpareThread() {
+  if (thread_.joinable()) thread_.join();
+}
+
+void SpareThread::GiveWay(const std::atomic<bool>& is_over) {
+  constexpr std::chrono::milliseconds kPatience(1);  // one that ends just now isn't heard
+  if (helpers_at_work < ThreadCount() - 1) return;
+  std::unique_lock<std::mutex> lock(rest_mutex);
+  ++resting;
+  while (!is_over && helpers_at_work >= ThreadCount() - 1) helper_ended.wait_for(lock, kPatience);
+  --resting;
+}
+
+int FreeThreads() { return std::max(0, MostHelpers() - helpers_at_work); }
 
 // Not OpenMP: where a thread can't be made, its library ends the program.
 void OnThreads(int helpers, const std::function<void(bool)>& work) {

@@ -5,6 +5,8 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -15,8 +17,8 @@
 #include "surface/chart_parts.h"
 #include "surface/chart_trial.h"
 #include "surface/fine_checks.h"
-#include "surface/known_trials.h"
 #include "surface/seam_price.h"
+#include "surface/shared_trials.h"
 
 namespace dcharts {
 
@@ -37,7 +39,7 @@ struct ChartGroups {
 
   /// `of_parts` must outlive the groups; each part is a chart at first.
   ChartGroups(ChartParts<MeshType>& of_parts, const Params& with_params, Progress& to_progress)
-      : parts(of_parts), params(with_params), progress(to_progress) {
+      : parts(of_parts), params(with_params), progress(to_progress), shared(std::make_shared<SharedTrials>()) {
     apart = parts.KeptApart();
     alive = parts.Count();
     std::vector<std::vector<int>> single(alive);
@@ -49,6 +51,9 @@ struct ChartGroups {
       charts.back().trial = Trial({c});
     }
   }
+
+  /// The same charts for another to go on with.
+  ChartGroups(const ChartGroups& others, Progress& to_progress) : ChartGroups(others) { progress = to_progress; }
 
   static constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
@@ -86,7 +91,7 @@ struct ChartGroups {
   double CutLength(const ChartTrial& trial) const { return trial.cut_length / parts.Unit(); }
   /// For work that may take long.
   std::function<void()> Poll() {
-    return [this] { progress.Poll(); };
+    return [this] { progress.get().Poll(); };
   }
 
   double AreaOf(const std::vector<int>& some) const {
@@ -121,8 +126,12 @@ struct ChartGroups {
     } else if (known->second.second.flat || known->second.first >= CoarseBound()) {
       return known->second.second;
     }
-    progress.Poll();
-    return Record(some, TryChart(parts.CoarsePatch(some), CoarseBound(), Poll()));
+    const auto made = shared->coarse.Find(CoarseBound(), some);
+    if (made) return Record(some, *made);
+    progress.get().Poll();
+    const ChartTrial trial = TryChart(parts.CoarsePatch(some), CoarseBound(), Poll());
+    shared->coarse.Add(CoarseBound(), some, trial);
+    return Record(some, trial);
   }
 
   /// These parts are never to be a chart.
@@ -131,19 +140,22 @@ struct ChartGroups {
   /// Makes trials ahead, on all threads.
   void TryAll(const std::vector<std::vector<int>>& sets) {
     std::vector<const std::vector<int>*> open;
-    std::vector<ChartPatch> patches;
     for (const std::vector<int>& some : sets)
-      if (trials.find(some) == trials.end() && !HoldsOverlap(some)) {
-        open.push_back(&some);
-        patches.push_back(parts.CoarsePatch(some));
-      }
-    std::vector<ChartTrial> made(open.size());
+      if (trials.find(some) == trials.end() && !HoldsOverlap(some)) open.push_back(&some);
+    std::vector<std::optional<ChartTrial>> made(open.size());
+    std::vector<ChartPatch> patches(open.size());
+    for (size_t k = 0; k < open.size(); ++k) {
+      made[k] = shared->coarse.Find(CoarseBound(), *open[k]);
+      if (!made[k]) patches[k] = parts.CoarsePatch(*open[k]);
+    }
     ParallelForLargestFirst(
         static_cast<int>(open.size()), progress, [&](int k) { return patches[k].faces.size(); },
         [&](int k, const std::function<void()>& poll) {
+          if (made[k]) return;
           made[k] = TryChart(patches[k], CoarseBound(), poll);
+          shared->coarse.Add(CoarseBound(), *open[k], *made[k]);
         });
-    for (size_t k = 0; k < open.size(); ++k) Record(*open[k], made[k]);
+    for (size_t k = 0; k < open.size(); ++k) Record(*open[k], *made[k]);
   }
 
   const ChartTrial& Record(const std::vector<int>& some, const ChartTrial& trial) {
@@ -236,16 +248,17 @@ struct ChartGroups {
 
   ChartParts<MeshType>& parts;
   const Params& params;
-  Progress& progress;
+  std::reference_wrapper<Progress> progress;
   std::vector<Chart> charts;  ///< a merge adds one; those that are alive are a partition of the parts
   int alive = 0;
   double bound = kNoBound;  ///< on the L2 stretch of a chart
   double seam_share = 1;    ///< of the price of seams: merges are taken in another order when it is less
   std::map<std::vector<int>, std::pair<double, ChartTrial>> trials;  ///< of parts: bound, trial
-  KnownTrials fine_trials{};                                         ///< on the copy for checks
+  std::shared_ptr<SharedTrials> shared;                              ///< by all orders
   FineChecks fine_checks{};                                          ///< on it too
   std::vector<std::vector<int>> overlapping;                         ///< parts whose chart overlapped itself
   bool overlaps_stay = true;                                         ///< what holds such parts isn't tried
+  std::set<std::vector<int>> refused{};  ///< parts that failed on the fine surface as one chart
   std::set<std::pair<int, int>> apart;  ///< parts that are not to be in one chart: they would overlap, or a
                                         ///< kept border is between them
 };

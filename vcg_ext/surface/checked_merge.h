@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <mutex>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -31,30 +30,15 @@ class CheckedMerger {
   CheckedMerger(ChartGroups<MeshType>& groups, KnownFlattenings* known)
       : groups_(groups), known_(known), greedy_(groups) {}
 
-  void Run() {
-    const double bound = groups_.params.StretchBound();
-    const bool to_fewest = groups_.params.target_charts == 0 && bound < kNoBound;
-    Merge(bound);
-    if (bound < kNoBound) MergeWithDarts(Effort::kUsual);
-    if (to_fewest) {
-      Dissolve();
-      if (MayBeTooMany() || MayNeedFewerDarts()) MergeAgain(bound);
-      if (IsWorthMostEffort()) MergeWithDarts(Effort::kMost);
-    }
-    if (groups_.params.target_charts > 0 && greedy_.MayMergeMore()) Merge(kNoBound);
-    Improve();
-  }
-
- private:
-  static constexpr double kNoBound = ChartGroups<MeshType>::kNoBound;
-  static constexpr int kFew = 3, kMany = 8;    // charts
-  static constexpr double kWorthTrying = 1.4;  // the L2 stretch without darts
-
-  // With most effort a pair gets more darts, and is drawn apart where it laps over itself.
+  /// With most effort a pair gets more darts, and is drawn apart where it laps over itself.
   enum class Effort { kUsual, kMost };
 
-  // Merges until done, then has all charts checked on the fine surface; those that fail there are taken
-  // apart, and merging goes on with other pairs.
+  /// There are more charts than asked for, or no number was asked for.
+  bool MayMergeMore() const { return greedy_.MayMergeMore(); }
+  int MergesWithDarts() const { return merges_with_darts_; }
+
+  /// Merges until done, then has all charts checked on the fine surface; those that fail there are taken
+  /// apart, and merging goes on with other pairs.
   void Merge(double bound) {
     groups_.bound = bound;
     greedy_.ForgetFailures();
@@ -70,185 +54,7 @@ class CheckedMerger {
     groups_.overlaps_stay = true;
   }
 
-  // One chart is a large share of so many, and another order often saves it. Of more it seldom saves any, and
-  // small ones, ends of limbs, stay in any order.
-  bool MayBeTooMany() const {
-    constexpr double kSmall = 0.015;
-    constexpr int kEnough = 6;
-    int count = 0;
-    for (const auto& chart : groups_.charts) count += chart.alive && chart.area > kSmall;
-    return count > kFew && count <= kEnough;
-  }
-
-  // In another order, merges that needed darts may not be made. Where few charts are left, one that did is
-  // not too many.
-  bool MayNeedFewerDarts() const { return merges_with_darts_ > (groups_.alive <= kFew ? 1 : 0); }
-
-  // What each try costs is little beside what one chart of a few is worth.
-  bool IsWorthMostEffort() const {
-    return groups_.alive > kFew && groups_.alive <= kMany &&
-           groups_.params.method == FlattenMethod::kStretchMinimizing;
-  }
-
-  // In another order; kept where that ends with fewer charts, or with as many and shorter seams.
-  void MergeAgain(double bound) {
-    constexpr double kShare = 0.2;
-    const auto charts = groups_.charts;
-    const int alive = groups_.alive;
-    const double seams = groups_.SeamLength();
-    groups_.TakeApart();
-    greedy_.Restart();
-    groups_.seam_share = kShare;
-    Merge(bound);
-    Dissolve();
-    groups_.seam_share = 1;
-    if (merges_with_darts_ > 0 || groups_.alive < alive) {
-      MergeWithDarts(Effort::kUsual);
-      Dissolve();
-    }
-    if (std::make_pair(groups_.alive, groups_.SeamLength()) >= std::make_pair(alive, seams)) {
-      groups_.charts = charts;
-      groups_.alive = alive;
-    }
-  }
-
-  // Charts that can be given away in pieces, the smallest first; of many, large ones find no room.
-  void Dissolve() {
-    for (bool again = true; again;) {
-      again = false;
-      std::vector<std::pair<double, int>> order;
-      for (int c = 0; c < static_cast<int>(groups_.charts.size()); ++c)
-        if (groups_.charts[c].alive) order.push_back({groups_.charts[c].area, c});
-      std::sort(order.begin(), order.end());
-      for (const auto& [area, c] : order) {
-        if (groups_.alive > kMany && area * groups_.alive > 1) break;
-        if (groups_.charts[c].alive) again |= DissolveChart(c);
-      }
-    }
-  }
-
-  // What doesn't hold on the fine surface is not made again.
-  bool DissolveChart(int c) {
-    ChartDissolver<MeshType> dissolver(groups_);
-    constexpr int kRounds = 3;
-    for (int round = 0; round < kRounds && dissolver.FindPlaces(c); ++round) {
-      const auto before = groups_.charts;
-      dissolver.Apply();
-      const std::vector<Failure> failures = Unfit();
-      if (failures.empty()) return true;
-      Forbid(failures);
-      groups_.charts = before;
-      ++groups_.alive;
-    }
-    return false;
-  }
-
-  // What doesn't hold on the fine surface is not made again.
-  void Improve() {
-    const auto before = groups_.charts;
-    constexpr int kRounds = 4;
-    for (int round = 0; round < kRounds; ++round) {
-      if (!MergeImprover<MeshType>(groups_).Run(before)) return;
-      const std::vector<Failure> failures = Unfit();
-      if (failures.empty()) return;
-      Forbid(failures);
-      groups_.charts = before;
-    }
-  }
-
-  // A chart that doesn't hold on the fine surface, and parts that overlap each other in it.
-  struct Failure {
-    int chart;
-    std::set<std::pair<int, int>> overlaps;
-  };
-
-  void Forbid(const std::vector<Failure>& failures) {
-    for (const Failure& failure : failures) {
-      groups_.apart.insert(failure.overlaps.begin(), failure.overlaps.end());
-      groups_.Forbid(groups_.charts[failure.chart].parts);
-    }
-  }
-
-  // Checks all new charts on the fine surface; returns those that fail.
-  std::vector<Failure> Unfit() {
-    std::vector<Failure> failures;
-    std::vector<int> unverified;
-    std::vector<ChartPatch> patches;
-    for (int c = 0; c < static_cast<int>(groups_.charts.size()); ++c) {
-      auto& chart = groups_.charts[c];
-      if (!chart.alive || chart.verified) continue;
-      if (const auto known = groups_.fine_checks.Find(groups_.bound, chart.parts)) {
-        chart.verified = *known;
-        if (!*known) failures.push_back({c, {}});
-        continue;
-      }
-      unverified.push_back(c);
-      patches.push_back(groups_.parts.FinePatch(chart.parts));
-    }
-    constexpr size_t kMostOverlaps = 1000;
-    std::vector<char> fits(patches.size());
-    std::vector<TrialFlattening> flat(patches.size());
-    std::vector<std::vector<std::pair<int, int>>> overlaps(patches.size());
-    ParallelForLargestFirst(
-        static_cast<int>(patches.size()), groups_.progress, [&](int k) { return patches[k].faces.size(); },
-        [&](int k, const std::function<void()>& poll) {
-          double cut_length = 0;
-          const ChartPatch open = Opened(patches[k], cut_length);
-          TrialOptions options;
-          options.l2_bound = groups_.bound;
-          flat[k] = TrialFlatten(open.mesh, options, poll);
-          if (flat[k].ok) overlaps[k] = OverlapsInMap(flat[k].uv, open.mesh.triangles, kMostOverlaps);
-          fits[k] = flat[k].ok && overlaps[k].empty();
-        });
-    for (size_t k = 0; k < unverified.size(); ++k) {
-      auto& chart = groups_.charts[unverified[k]];
-      chart.verified = fits[k];
-      if (fits[k] || overlaps[k].empty()) groups_.fine_checks.Add(groups_.bound, chart.parts, fits[k]);
-      if (fits[k]) {
-        groups_.fine_trials.Add(patches[k].faces, std::move(flat[k]));
-        continue;
-      }
-      failures.push_back({unverified[k], {}});
-      for (const auto& [i, j] : overlaps[k]) {
-        const int p = groups_.parts.PartOfFine(patches[k].faces[i]),
-                  q = groups_.parts.PartOfFine(patches[k].faces[j]);
-        if (p != q) failures.back().overlaps.insert({std::min(p, q), std::max(p, q)});
-      }
-    }
-    std::sort(failures.begin(), failures.end(),
-              [](const Failure& a, const Failure& b) { return a.chart < b.chart; });
-    return failures;
-  }
-
-  // Parts that overlapped in one chart are not to come together again; for other failures the last merge is
-  // taken back.
-  bool UndoBadMerges() {
-    const std::vector<Failure> failures = Unfit();
-    for (const Failure& failure : failures) {
-      groups_.apart.insert(failure.overlaps.begin(), failure.overlaps.end());
-      if (failure.overlaps.empty()) {
-        const auto& chart = groups_.charts[failure.chart];
-        greedy_.Refuse(chart.first, chart.second);
-      }
-      std::vector<int> stack{failure.chart};
-      while (!stack.empty()) {
-        const int c = stack.back();
-        stack.pop_back();
-        if (c != failure.chart && groups_.MayStandTogether(groups_.charts[c].parts)) {
-          groups_.charts[c].alive = true;
-          ++groups_.alive;
-          continue;
-        }
-        if (c == failure.chart) --groups_.alive;
-        groups_.charts[c].alive = false;
-        stack.push_back(groups_.charts[c].second);
-        stack.push_back(groups_.charts[c].first);
-      }
-    }
-    return !failures.empty();
-  }
-
-  // Pairs that are above the bound together, but not with some darts, if seams don't get longer by that.
+  /// Pairs that are above the bound together, but not with some darts, if seams don't get longer by that.
   void MergeWithDarts(Effort effort) {
     std::set<std::pair<int, int>> failed;
     std::map<std::pair<int, int>, ChartTrial> trials;
@@ -284,6 +90,167 @@ class CheckedMerger {
       groups_.charts[groups_.Join(a, b, both)].verified = true;
       ++merges_with_darts_;
     }
+  }
+
+  /// Charts that can be given away in pieces, the smallest first; of many, large ones find no room.
+  void Dissolve() {
+    constexpr int kMany = 8;  // charts
+    for (bool again = true; again;) {
+      again = false;
+      std::vector<std::pair<double, int>> order;
+      for (int c = 0; c < static_cast<int>(groups_.charts.size()); ++c)
+        if (groups_.charts[c].alive) order.push_back({groups_.charts[c].area, c});
+      std::sort(order.begin(), order.end());
+      for (const auto& [area, c] : order) {
+        if (groups_.alive > kMany && area * groups_.alive > 1) break;
+        if (groups_.charts[c].alive) again |= DissolveChart(c);
+      }
+    }
+  }
+
+  /// See MergeImprover. What doesn't hold on the fine surface is not made again.
+  void Improve() {
+    const auto before = groups_.charts;
+    constexpr int kRounds = 4;
+    for (int round = 0; round < kRounds; ++round) {
+      if (!MergeImprover<MeshType>(groups_).Run(before)) return;
+      const std::vector<Failure> failures = Unfit();
+      if (failures.empty()) return;
+      Forbid(failures);
+      groups_.charts = before;
+    }
+  }
+
+ private:
+  static constexpr double kNoBound = ChartGroups<MeshType>::kNoBound;
+  static constexpr double kWorthTrying = 1.4;  // the L2 stretch without darts
+
+  // What doesn't hold on the fine surface is not made again.
+  bool DissolveChart(int c) {
+    ChartDissolver<MeshType> dissolver(groups_);
+    constexpr int kRounds = 3;
+    for (int round = 0; round < kRounds && dissolver.FindPlaces(c); ++round) {
+      const auto before = groups_.charts;
+      dissolver.Apply();
+      const std::vector<Failure> failures = Unfit();
+      if (failures.empty()) return true;
+      Forbid(failures);
+      groups_.charts = before;
+      ++groups_.alive;
+    }
+    return false;
+  }
+
+  // A chart that doesn't hold on the fine surface, and parts that overlap each other in it.
+  struct Failure {
+    int chart;
+    std::set<std::pair<int, int>> overlaps;
+  };
+
+  void Forbid(const std::vector<Failure>& failures) {
+    for (const Failure& failure : failures) {
+      groups_.apart.insert(failure.overlaps.begin(), failure.overlaps.end());
+      groups_.Forbid(groups_.charts[failure.chart].parts);
+    }
+  }
+
+  // Checks all new charts on the fine surface; returns those that fail.
+  std::vector<Failure> Unfit() {
+    std::vector<Failure> failures;
+    std::vector<int> unverified;
+    for (int c = 0; c < static_cast<int>(groups_.charts.size()); ++c) {
+      auto& chart = groups_.charts[c];
+      if (!chart.alive || chart.verified) continue;
+      if (const auto known = groups_.fine_checks.Find(groups_.bound, chart.parts)) {
+        chart.verified = *known;
+        if (!*known) failures.push_back({c, {}});
+        continue;
+      }
+      unverified.push_back(c);
+    }
+    const std::vector<SharedTrials::Map> maps = MapsOf(unverified);
+    for (size_t k = 0; k < unverified.size(); ++k) {
+      auto& chart = groups_.charts[unverified[k]];
+      chart.verified = maps[k].fits;
+      if (maps[k].fits || maps[k].overlaps.empty())
+        groups_.fine_checks.Add(groups_.bound, chart.parts, maps[k].fits);
+      if (!maps[k].fits) failures.push_back({unverified[k], maps[k].overlaps});
+    }
+    std::sort(failures.begin(), failures.end(),
+              [](const Failure& a, const Failure& b) { return a.chart < b.chart; });
+    return failures;
+  }
+
+  // Of these charts on the fine surface.
+  std::vector<SharedTrials::Map> MapsOf(const std::vector<int>& charts) {
+    SharedTrials& shared = *groups_.shared;
+    std::vector<SharedTrials::Map> maps(charts.size());
+    std::vector<size_t> open;
+    std::vector<ChartPatch> patches;
+    for (size_t k = 0; k < charts.size(); ++k) {
+      const std::vector<int>& parts = groups_.charts[charts[k]].parts;
+      if (const auto made = shared.maps.Find(groups_.bound, parts)) {
+        maps[k] = *made;
+        continue;
+      }
+      open.push_back(k);
+      patches.push_back(groups_.parts.FinePatch(parts));
+    }
+    ParallelForLargestFirst(
+        static_cast<int>(open.size()), groups_.progress, [&](int k) { return patches[k].faces.size(); },
+        [&](int k, const std::function<void()>& poll) {
+          SharedTrials::Map& map = maps[open[k]];
+          map = FineMap(patches[k], poll);
+          shared.maps.Add(groups_.bound, groups_.charts[charts[open[k]]].parts, map);
+        });
+    return maps;
+  }
+
+  SharedTrials::Map FineMap(const ChartPatch& patch, const std::function<void()>& poll) {
+    constexpr size_t kMostOverlaps = 1000;
+    double cut_length = 0;
+    const ChartPatch open = Opened(patch, cut_length);
+    TrialOptions options;
+    options.l2_bound = groups_.bound;
+    TrialFlattening flat = TrialFlatten(open.mesh, options, poll);
+    SharedTrials::Map map;
+    if (!flat.ok) return map;
+    const auto overlaps = OverlapsInMap(flat.uv, open.mesh.triangles, kMostOverlaps);
+    map.fits = overlaps.empty();
+    if (map.fits) groups_.shared->fine.Add(patch.faces, std::move(flat));
+    for (const auto& [i, j] : overlaps) {
+      const int p = groups_.parts.PartOfFine(patch.faces[i]), q = groups_.parts.PartOfFine(patch.faces[j]);
+      if (p != q) map.overlaps.insert({std::min(p, q), std::max(p, q)});
+    }
+    return map;
+  }
+
+  // Parts that overlapped in one chart are not to come together again; for other failures the last merge is
+  // taken back.
+  bool UndoBadMerges() {
+    const std::vector<Failure> failures = Unfit();
+    for (const Failure& failure : failures) {
+      groups_.apart.insert(failure.overlaps.begin(), failure.overlaps.end());
+      if (failure.overlaps.empty()) {
+        const auto& chart = groups_.charts[failure.chart];
+        greedy_.Refuse(chart.first, chart.second);
+      }
+      std::vector<int> stack{failure.chart};
+      while (!stack.empty()) {
+        const int c = stack.back();
+        stack.pop_back();
+        if (c != failure.chart && groups_.MayStandTogether(groups_.charts[c].parts)) {
+          groups_.charts[c].alive = true;
+          ++groups_.alive;
+          continue;
+        }
+        if (c == failure.chart) --groups_.alive;
+        groups_.charts[c].alive = false;
+        stack.push_back(groups_.charts[c].second);
+        stack.push_back(groups_.charts[c].first);
+      }
+    }
+    return !failures.empty();
   }
 
   // Makes the trials of neighbours that are not there, without darts. They have no stretch when the parts may
@@ -368,7 +335,6 @@ class CheckedMerger {
 
   // On the copy for trials, or that for checks.
   ChartPatch PatchOf(const std::vector<int>& parts, bool coarse) {
-    const std::lock_guard<std::mutex> lock(mutex_);
     return coarse ? groups_.parts.CoarsePatch(parts) : groups_.parts.FinePatch(parts);
   }
 
@@ -378,23 +344,18 @@ class CheckedMerger {
     return known_ ? groups_.bound : 1 + kShareOnCopy * (groups_.bound - 1);
   }
 
-  // Made once: BorderRefiner begins with it too.
+  // BorderRefiner begins with it too.
   TrialFlattening FineTrial(const ChartPatch& whole, const ChartPatch& open,
                             const std::function<void()>& poll) {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      if (const TrialFlattening* known = groups_.fine_trials.Find(whole.faces)) return *known;
-    }
+    if (const TrialFlattening* known = groups_.shared->fine.Find(whole.faces)) return *known;
     TrialFlattening trial = TrialFlatten(open.mesh, {}, poll);
-    const std::lock_guard<std::mutex> lock(mutex_);
-    groups_.fine_trials.Add(whole.faces, trial);
+    groups_.shared->fine.Add(whole.faces, trial);
     return trial;
   }
 
   ChartGroups<MeshType>& groups_;
   KnownFlattenings* const known_;
   GreedyMerger<MeshType> greedy_;
-  std::mutex mutex_;  // of the copies, and of fine_trials
   int merges_with_darts_ = 0;
 };
 

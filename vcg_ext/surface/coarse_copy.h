@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <mutex>
 #include <vector>
 
 #include "surface/chart_patch.h"
@@ -29,7 +30,11 @@ class CoarseCopy {
   int SourceFace(int face) const { return coarse_.source_face[face]; }  ///< of the original surface
   int Heir(int face) const { return coarse_.heir[face]; }               ///< of a face of the original surface
   const ChartIds& Ids() const { return coarse_.ids; }
-  ChartPatch Extract(const std::vector<int>& faces) { return extractor_.Extract(faces); }
+  /// May be called by several threads at once.
+  ChartPatch Extract(const std::vector<int>& faces) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return extractor_.Extract(faces);
+  }
   const std::vector<std::vector<int>>& FacesOf() const { return faces_; }  ///< per chart
 
  private:
@@ -37,6 +42,7 @@ class CoarseCopy {
   SurfaceGraph<SurfaceMesh> graph_;
   SeamMask no_seams_;
   PatchExtractor<SurfaceMesh> extractor_;
+  std::mutex mutex_;  // of the extractor
   std::vector<std::vector<int>> faces_;
 };
 

@@ -5,7 +5,6 @@
 #include <functional>
 #include <map>
 #include <queue>
-#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -41,10 +40,7 @@ class GreedyMerger {
   }
 
   /// The two are not to be merged.
-  void Refuse(int a, int b) { refused_.insert(groups_.PartsOfBoth(a, b)); }
-
-  /// After ChartGroups::TakeApart(). What was refused stays so.
-  void Restart() { unions_.clear(); }
+  void Refuse(int a, int b) { groups_.refused.insert(groups_.PartsOfBoth(a, b)); }
 
   /// After groups.bound was raised: what exceeded it is tried again.
   void ForgetFailures() {
@@ -64,7 +60,7 @@ class GreedyMerger {
   }
 
   bool IsRefused(int a, int b) const {
-    return !refused_.empty() && refused_.count(groups_.PartsOfBoth(a, b)) > 0;
+    return !groups_.refused.empty() && groups_.refused.count(groups_.PartsOfBoth(a, b)) > 0;
   }
 
   void StartQueue() {
@@ -146,20 +142,29 @@ class GreedyMerger {
 
   bool IsFlatOnFine(const std::vector<int>& some) {
     if (const auto known = groups_.fine_checks.Find(groups_.bound, some)) return *known;
+    const SharedTrials::Check check = FineCheck(some);
+    // Of one that overlaps, CheckedMerger asks which parts do.
+    if (!check.overlaps) groups_.fine_checks.Add(groups_.bound, some, check.fits);
+    return check.fits;
+  }
+
+  SharedTrials::Check FineCheck(const std::vector<int>& some) {
+    SharedTrials& shared = *groups_.shared;
+    if (const auto made = shared.checks.Find(groups_.bound, some)) return *made;
     const ChartPatch patch = groups_.parts.FinePatch(some);
     TrialFlattening map;
-    const bool flat = TryChart(patch, groups_.bound, groups_.Poll(), &map).flat;
-    // Of one that overlaps, CheckedMerger asks which parts do.
-    if (flat || map.overlaps == 0) groups_.fine_checks.Add(groups_.bound, some, flat);
-    groups_.fine_trials.Add(patch.faces, std::move(map));
-    return flat;
+    SharedTrials::Check check;
+    check.fits = TryChart(patch, groups_.bound, groups_.Poll(), &map).flat;
+    check.overlaps = !check.fits && map.overlaps > 0;
+    shared.checks.Add(groups_.bound, some, check);
+    shared.fine.Add(patch.faces, std::move(map));
+    return check;
   }
 
   using Item = std::tuple<bool, double, int, int, bool>;  // not tiny, cost, charts, whether it is exact
 
   ChartGroups<MeshType>& groups_;
   std::map<std::pair<int, int>, Union> unions_;
-  std::set<std::vector<int>> refused_;  // parts that failed on the fine surface
   std::priority_queue<Item, std::vector<Item>, std::greater<>> queue_;
 };
 

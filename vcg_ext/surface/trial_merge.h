@@ -6,7 +6,7 @@
 #include "common/params.h"
 #include "common/progress.h"
 #include "surface/charts.h"
-#include "surface/checked_merge.h"
+#include "surface/merge_orders.h"
 #include "surface/refine_borders.h"
 #include "surface/refine_on_copy.h"
 #include "surface/split_bad_charts.h"
@@ -30,14 +30,14 @@ class TrialMerger {
     ChartParts<MeshType> parts = Parts(ids);
     ChartGroups<MeshType> groups(parts, params_, progress_);
     const bool is_copied = parts.Fine().Graph().FaceCount() < surface_.FaceCount();
-    CheckedMerger<MeshType>(groups, is_copied ? nullptr : &known).Run();
+    MergeOrders<MeshType>(groups, is_copied ? nullptr : &known).Run();
     const std::vector<int> owner = groups.Owners();
     for (int& id : ids) id = owner[id];
     SplitAndCompact(surface_, ids);
     if (is_copied)
-      RefineBordersOnCopy(surface_, parts.Fine(), groups.fine_trials, params_, progress_, ids);
+      RefineBordersOnCopy(surface_, parts.Fine(), groups.shared->fine, params_, progress_, ids);
     else
-      BorderRefiner<MeshType>(surface_, params_, progress_).Run(groups.fine_trials, ids);
+      BorderRefiner<MeshType>(surface_, params_, progress_).Run(groups.shared->fine, ids);
   }
 
   /// What ChartGroups::Cost() would be after Run(), by trials on the coarse copy alone: only to compare
