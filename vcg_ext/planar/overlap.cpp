@@ -2,8 +2,11 @@
 #include "planar/overlap.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstddef>
 
+#include "common/parallel.h"
 #include "planar/boundary_loops.h"
 
 namespace dcharts {
@@ -101,26 +104,50 @@ std::vector<std::pair<int, int>> OverlappingPairs(const std::vector<GridTriangle
   std::vector<int> members(start.back()), fill(start.begin(), start.end() - 1);
   for (int t = 0; t < count; ++t) for_cells(t, [&](size_t cell) { members[fill[cell]++] = t; });
 
-  constexpr size_t kPollEvery = 65536;  // cells
-  for (size_t cell = 0; cell + 1 < start.size(); ++cell) {
-    if (poll && cell % kPollEvery == 0) poll();
-    for (int m = start[cell]; m < start[cell + 1]; ++m)
-      for (int n = m + 1; n < start[cell + 1]; ++n) {
-        const int i = members[m], j = members[n];
-        const Box &a = boxes[i], &b = boxes[j];
-        if (a.low[0] >= b.high[0] || b.low[0] >= a.high[0] || a.low[1] >= b.high[1] || b.low[1] >= a.high[1])
-          continue;
-        // A pair that shares several cells is taken in the one with the corner of the boxes' intersection.
-        const size_t home = static_cast<size_t>(std::max(a.low_cell[1], b.low_cell[1]) * cells[0] +
-                                                std::max(a.low_cell[0], b.low_cell[0]));
-        if (home != cell || !Overlap(triangles[i], triangles[j])) continue;
-        pairs.push_back({i, j});
-        if (pairs.size() >= limit) {
-          std::sort(pairs.begin(), pairs.end());
-          return pairs;
-        }
+  // Of some cells that follow each other; ends early at the limit, or where cells before them have reached it.
+  const auto pairs_in = [&](size_t begin, size_t end, const std::function<void()>& poll_part,
+                            const auto& is_over) {
+    std::vector<std::pair<int, int>> found;
+    constexpr size_t kPollEvery = 65536;  // cells
+    for (size_t cell = begin; cell < end; ++cell) {
+      if (cell % kPollEvery == 0) {
+        if (poll_part) poll_part();
+        if (is_over()) return found;
       }
-  }
+      for (int m = start[cell]; m < start[cell + 1]; ++m)
+        for (int n = m + 1; n < start[cell + 1]; ++n) {
+          const int i = members[m], j = members[n];
+          const Box &a = boxes[i], &b = boxes[j];
+          if (a.low[0] >= b.high[0] || b.low[0] >= a.high[0] || a.low[1] >= b.high[1] ||
+              b.low[1] >= a.high[1])
+            continue;
+          // A pair that shares several cells is taken in the one with the corner of the boxes' intersection.
+          const size_t home = static_cast<size_t>(std::max(a.low_cell[1], b.low_cell[1]) * cells[0] +
+                                                  std::max(a.low_cell[0], b.low_cell[0]));
+          if (home != cell || !Overlap(triangles[i], triangles[j])) continue;
+          found.push_back({i, j});
+          if (found.size() >= limit) return found;
+        }
+    }
+    return found;
+  };
+  constexpr int kCellsPerPart = 8192;
+  const size_t cell_count = start.size() - 1;
+  const int parts = static_cast<int>(cell_count / kCellsPerPart) + 1;
+  std::vector<std::vector<std::pair<int, int>>> found(parts);
+  std::atomic<int> full{parts};  // the first part that reached the limit
+  InParallel(parts, poll, [&](int k, const std::function<void()>& poll_part) {
+    if (k > full) return;
+    found[k] = pairs_in(cell_count * k / parts, cell_count * (k + 1) / parts, poll_part,
+                        [&] { return k > full; });
+    if (found[k].size() < limit) return;
+    for (int known = full; k < known && !full.compare_exchange_weak(known, k);) {
+    }
+  });
+  for (int k = 0; k < parts && pairs.size() < limit; ++k)
+    pairs.insert(pairs.end(), found[k].begin(),
+                 found[k].begin() + static_cast<std::ptrdiff_t>(
+                                        std::min(found[k].size(), limit - pairs.size())));
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <vector>
 
+#include "common/parallel.h"
+#include "common/union_find.h"
 #include "planar/chart_mesh.h"
 #include "surface/charts.h"
-#include "common/union_find.h"
 
 namespace dcharts {
 
@@ -85,17 +86,48 @@ class PatchExtractor {
 
   /// `faces`: one chart, or several that are to be seen as one where no seam is between them.
   ChartPatch Extract(const std::vector<int>& faces) {
+    Number(faces, 0);
+    ChartPatch patch = Numbered(faces, 0);
+    Forget(faces);
+    return patch;
+  }
+
+  /// Several charts, none of which has faces of another: on all threads, where they are large.
+  std::vector<ChartPatch> ExtractAll(const std::vector<std::vector<int>>& charts) {
+    constexpr int kManyFaces = 20000;
+    const int count = static_cast<int>(charts.size());
+    std::vector<int> begin{0};  // of the numbers of their faces
+    for (const std::vector<int>& faces : charts) begin.push_back(begin.back() + static_cast<int>(faces.size()));
+    std::vector<ChartPatch> patches(charts.size());
+    for (int k = 0; k < count; ++k) Number(charts[k], begin[k]);
+    if (begin.back() < kManyFaces)
+      for (int k = 0; k < count; ++k) patches[k] = Numbered(charts[k], begin[k]);
+    else
+      InParallel(count, {}, [&](int k, const auto&) { patches[k] = Numbered(charts[k], begin[k]); });
+    for (const std::vector<int>& faces : charts) Forget(faces);
+    return patches;
+  }
+
+ private:
+  void Number(const std::vector<int>& faces, int first) {
+    for (int f : faces) local_face_[f] = first++;
+  }
+
+  void Forget(const std::vector<int>& faces) {
+    for (int f : faces) local_face_[f] = -1;
+  }
+
+  ChartPatch Numbered(const std::vector<int>& faces, int first) const {
     ChartPatch patch;
     patch.faces = faces;
     const int face_count = static_cast<int>(faces.size());
-    for (int f = 0; f < face_count; ++f) local_face_[faces[f]] = f;
     patch.opposite.assign(3 * face_count, -1);
     for (int h = 0; h < 3 * face_count; ++h) {
       const int s = patch.SurfaceHalfEdge(h), o = surface_.Opposite(s);
-      if (o >= 0 && local_face_[o / 3] >= 0 && !IsSeam(seams_, s))
-        patch.opposite[h] = 3 * local_face_[o / 3] + o % 3;
+      if (o < 0 || IsSeam(seams_, s)) continue;
+      const int g = local_face_[o / 3] - first;
+      if (g >= 0 && g < face_count) patch.opposite[h] = 3 * g + o % 3;
     }
-    for (int f : faces) local_face_[f] = -1;
     const CutVertices cut = GlueCorners(patch.HalfEdgeCount(), [&](int h) { return patch.opposite[h]; });
     patch.mesh.triangles.resize(face_count, 3);
     patch.mesh.positions.resize(cut.count, 3);
@@ -106,10 +138,9 @@ class PatchExtractor {
     return patch;
   }
 
- private:
   const SurfaceGraph<MeshType>& surface_;
   const SeamMask& seams_;
-  std::vector<int> local_face_;
+  std::vector<int> local_face_;  // -1 for faces of no chart that is taken out
 };
 
 }  // namespace dcharts

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <vector>
 
 #include "common/params.h"
@@ -43,16 +44,16 @@ class ChartCutter {
 
  private:
   int CutByFittingError(const ChartIds& ids, SeamMask& seams) {
-    int count = 0;
-    ForEachChart(surface_, ids, seams, progress_, [&](const ChartPatch& patch) {
+    std::atomic<int> count{0};
+    CutCharts(surface_, ids, progress_, seams, [&](const ChartPatch& patch) {
       NormalMoments moments;
       for (int f : patch.faces) moments.Add(surface_.Area(f), surface_.Normal(f));
       const ConeProxy proxy = FitCone(moments);
       std::vector<double> error;
       for (int f : patch.faces) error.push_back(FittingError(proxy, surface_.Normal(f)));
       const Darts darts = PlanDarts(patch, error, params_);
-      MarkCuts(surface_, patch, darts.edges, seams);
       count += darts.count;
+      return darts.edges;
     });
     return count;
   }

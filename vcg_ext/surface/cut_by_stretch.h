@@ -77,9 +77,12 @@ class StretchCutter {
       again = false;
       std::vector<Cut> cuts;
       PatchExtractor<MeshType> extractor(surface_, seams);
-      for (const auto& faces : FacesOfCharts(ids)) {
-        if (done_[faces.front()]) continue;
-        DartedChart chart = Uncut(extractor.Extract(faces));
+      std::vector<std::vector<int>> open = FacesOfCharts(ids);
+      open.erase(std::remove_if(open.begin(), open.end(),
+                                [&](const std::vector<int>& faces) { return done_[faces.front()]; }),
+                 open.end());
+      for (ChartPatch& patch : extractor.ExtractAll(open)) {
+        DartedChart chart = Uncut(std::move(patch));
         const DartGoal goal = GoalOf(chart.patch, params_.StretchBound());
         cuts.push_back({std::move(chart), goal, std::nullopt});
       }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "common/parallel.h"
 #include "common/params.h"
 #include "common/progress.h"
 #include "surface/chart_patch.h"
@@ -23,17 +24,23 @@ void MarkCuts(const SurfaceGraph<MeshType>& surface, const ChartPatch& patch, co
   }
 }
 
-/// Calls visit(patch) for every chart.
-template <class MeshType, class Visit>
-void ForEachChart(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, const SeamMask& seams,
-                  Progress& progress, const Visit& visit) {
-  // Patches are taken from the state at the start: cuts of one chart don't touch another's.
-  const SeamMask before = seams;
-  PatchExtractor<MeshType> extractor(surface, before);
-  for (const auto& faces : FacesOfCharts(ids)) {
-    progress.Poll();
-    visit(extractor.Extract(faces));
+/// Makes the cuts that cuts_of(patch) returns, which may be called for several charts at once, seams. Returns
+/// how many charts have cuts.
+template <class MeshType, class CutsOf>
+int CutCharts(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, Progress& progress, SeamMask& seams,
+              const CutsOf& cuts_of) {
+  const std::vector<ChartPatch> patches =
+      PatchExtractor<MeshType>(surface, seams).ExtractAll(FacesOfCharts(ids));
+  std::vector<std::vector<int>> cuts(patches.size());
+  InParallel(
+      static_cast<int>(patches.size()), [&] { progress.Poll(); },
+      [&](int k, const auto&) { cuts[k] = cuts_of(patches[k]); });
+  int count = 0;
+  for (size_t k = 0; k < patches.size(); ++k) {
+    MarkCuts(surface, patches[k], cuts[k], seams);
+    count += !cuts[k].empty();
   }
+  return count;
 }
 
 /// The cuts that no chart can do without: after it every chart has a boundary and no handle. Returns how many
@@ -43,13 +50,9 @@ int OpenHandles(const SurfaceGraph<MeshType>& surface, Progress& progress, Chart
   int opened = 0;
   // A cut along a chart's own boundary may part it; then its pieces are looked at again.
   for (bool changed = true; changed;) {
-    changed = false;
-    ForEachChart(surface, ids, seams, progress, [&](const ChartPatch& patch) {
-      const std::vector<int> cuts = CutsThatOpenHandles(patch);
-      MarkCuts(surface, patch, cuts, seams);
-      opened += !cuts.empty();
-      changed |= !cuts.empty();
-    });
+    const int count = CutCharts(surface, ids, progress, seams, CutsThatOpenHandles);
+    changed = count > 0;
+    opened += count;
     if (changed) SplitAndCompact(surface, ids, &seams);
   }
   return opened;
@@ -59,9 +62,8 @@ int OpenHandles(const SurfaceGraph<MeshType>& surface, Progress& progress, Chart
 template <class MeshType>
 void JoinLoops(const SurfaceGraph<MeshType>& surface, const Params& params, Progress& progress,
                const ChartIds& ids, SeamMask& seams) {
-  ForEachChart(surface, ids, seams, progress, [&](const ChartPatch& patch) {
-    MarkCuts(surface, patch, CutsThatJoinLoops(patch, params.cut_to_disk), seams);
-  });
+  CutCharts(surface, ids, progress, seams,
+            [&](const ChartPatch& patch) { return CutsThatJoinLoops(patch, params.cut_to_disk); });
 }
 
 }  // namespace dcharts

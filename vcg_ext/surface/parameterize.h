@@ -101,10 +101,10 @@ class Parameterizer {
   };
 
   bool AllDisks(const ChartIds& ids, const SeamMask& seams) const {
-    PatchExtractor<MeshType> extractor(surface_, seams);
-    for (const auto& faces : FacesOfCharts(ids))
-      if (LoopsOf(extractor.Extract(faces)).size() != 1) return false;
-    return true;
+    const std::vector<ChartPatch> patches =
+        PatchExtractor<MeshType>(surface_, seams).ExtractAll(FacesOfCharts(ids));
+    return std::all_of(patches.begin(), patches.end(),
+                       [](const ChartPatch& patch) { return LoopsOf(patch).size() == 1; });
   }
 
   // Until every chart is flat without overlap. Each round makes the charts that are not smaller or cuts them
@@ -112,11 +112,15 @@ class Parameterizer {
   void FlattenAll(ChartIds& ids, SeamMask& seams) {
     for (;;) {
       const SeamMask before = seams;
-      PatchExtractor<MeshType> extractor(surface_, before);
+      std::vector<std::vector<int>> charts = FacesOfCharts(ids);
+      charts.erase(
+          std::remove_if(charts.begin(), charts.end(),
+                         [&](const std::vector<int>& faces) { return state_[faces.front()] == State::kDone; }),
+          charts.end());
+      if (charts.empty()) return;
       std::vector<Piece> pieces;
-      for (const auto& faces : FacesOfCharts(ids))
-        if (state_[faces.front()] != State::kDone) pieces.push_back({extractor.Extract(faces)});
-      if (pieces.empty()) return;
+      for (ChartPatch& patch : PatchExtractor<MeshType>(surface_, before).ExtractAll(charts))
+        pieces.push_back({std::move(patch)});
 
       ParallelForLargestFirst(
           static_cast<int>(pieces.size()), progress_, [&](int k) { return pieces[k].patch.faces.size(); },

@@ -129,10 +129,10 @@ class BorderRefiner {
   }
 
   void Flatten(const std::vector<int>& which, const KnownTrials& known, State& state) {
-    const auto faces = FacesOfCharts(state.ids);
-    PatchExtractor<MeshType> extractor(surface_, no_seams_);
-    std::vector<ChartPatch> patches;
-    for (int c : which) patches.push_back(extractor.Extract(faces[c]));
+    auto faces = FacesOfCharts(state.ids);
+    std::vector<std::vector<int>> charts;
+    for (int c : which) charts.push_back(std::move(faces[c]));
+    const std::vector<ChartPatch> patches = PatchExtractor<MeshType>(surface_, no_seams_).ExtractAll(charts);
     const auto size = [&](int k) { return patches[k].faces.size(); };
     const auto flatten = [&](int k, const std::function<void()>& poll) {
       Chart& chart = state.charts[which[k]];

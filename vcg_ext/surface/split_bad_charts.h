@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -21,9 +22,11 @@ void SplitBadCharts(const SurfaceGraph<MeshType>& surface, double bound, Progres
   std::vector<char> good(surface.FaceCount(), 0);
   for (bool again = true; again;) {
     again = false;
-    std::vector<ChartPatch> patches;
-    for (const auto& faces : FacesOfCharts(ids))
-      if (!good[faces.front()]) patches.push_back(extractor.Extract(faces));
+    std::vector<std::vector<int>> charts = FacesOfCharts(ids);
+    charts.erase(std::remove_if(charts.begin(), charts.end(),
+                                [&](const std::vector<int>& faces) { return good[faces.front()]; }),
+                 charts.end());
+    const std::vector<ChartPatch> patches = extractor.ExtractAll(charts);
     std::vector<std::vector<int>> sides(patches.size());  // of those that are to be split
     ParallelForLargestFirst(
         static_cast<int>(patches.size()), progress, [&](int k) { return patches[k].faces.size(); },
