@@ -33,6 +33,8 @@ std::mutex rest_mutex;
 std::condition_variable helper_ended;
 std::atomic<int> resting{0};
 
+std::atomic<int> spares_at_work{0};
+
 // This is a spare thread or a helper of one.
 thread_local bool is_spare = false;
 
@@ -109,14 +111,18 @@ WaitsForHelpers::~WaitsForHelpers() { ++helpers_at_work; }
 
 SpareThread::SpareThread(const std::function<void()>& work) {
   if (ThreadCount() < 2) return;
+  ++spares_at_work;
   try {
     thread_ = Started([work] {
       is_spare = true;
       work();
+      --spares_at_work;
     });
+    return;
   } catch (const std::system_error&) {
   } catch (const std::bad_alloc&) {
   }
+  --spares_at_work;
 }
 
 SpareThread::~SpareThread() {
@@ -133,6 +139,8 @@ void SpareThread::GiveWay(const std::atomic<bool>& is_over) {
 }
 
 int FreeThreads() { return std::max(0, MostHelpers() - helpers_at_work); }
+
+int IdleThreads() { return std::max(0, FreeThreads() - (is_spare ? 0 : spares_at_work.load())); }
 
 // Not OpenMP: where a thread can't be made, its library ends the program.
 void OnThreads(int helpers, const std::function<void(bool)>& work) {

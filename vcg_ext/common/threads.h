@@ -14,6 +14,9 @@ int ThreadCount();
 /// How many helpers a call of OnThreads would get now.
 int FreeThreads();
 
+/// How many of them no spare thread uses: for what may turn out to be in vain.
+int IdleThreads();
+
 /// Calls work(true) on this thread and at the same time work(false) on `helpers` others. There are fewer
 /// where more than ThreadCount() threads would be at work in all, as within such a call, and where the system
 /// gives fewer or has no memory for them. Returns when all have ended; `work` must not throw.

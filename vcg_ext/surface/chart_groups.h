@@ -158,6 +158,19 @@ struct ChartGroups {
     for (size_t k = 0; k < open.size(); ++k) Record(*open[k], *made[k]);
   }
 
+  /// Its trial takes no time.
+  bool IsTried(const std::vector<int>& some) const {
+    return trials.count(some) > 0 || HoldsOverlap(some) || shared->coarse.Find(CoarseBound(), some);
+  }
+
+  /// Makes trials that are likely to be asked for next on idle threads, where they take long.
+  void TryAhead(const std::vector<std::vector<int>>& sets) {
+    if (!takes_long || sets.size() < 2) return;
+    InParallel(static_cast<int>(sets.size()), Poll(), [&](int k, const std::function<void()>& poll) {
+      shared->coarse.Add(CoarseBound(), sets[k], TryChart(parts.CoarsePatch(sets[k]), CoarseBound(), poll));
+    });
+  }
+
   const ChartTrial& Record(const std::vector<int>& some, const ChartTrial& trial) {
     if (trial.overlaps) overlapping.push_back(some);
     auto& entry = trials[some];
@@ -252,6 +265,7 @@ struct ChartGroups {
   std::vector<Chart> charts;  ///< a merge adds one; those that are alive are a partition of the parts
   int alive = 0;
   double bound = kNoBound;  ///< on the L2 stretch of a chart
+  bool takes_long = false;  ///< to try a chart: idle threads may do so in vain
   double seam_share = 1;    ///< of the price of seams: merges are taken in another order when it is less
   std::map<std::vector<int>, std::pair<double, ChartTrial>> trials;  ///< of parts: bound, trial
   std::shared_ptr<SharedTrials> shared;                              ///< by all orders

@@ -109,6 +109,7 @@ class GreedyMerger {
   void AcceptPair(int a, int b) {
     Union& both = unions_[{a, b}];
     const bool is_clear = IsClearlyWithin(both.trial);
+    if (!is_clear && groups_.takes_long) CheckAhead(a, b);
     if (!is_clear && !IsFlatOnFine(groups_.PartsOfBoth(a, b))) {
       Refuse(a, b);
       return;
@@ -140,21 +141,46 @@ class GreedyMerger {
     return !(trial.stretch - 1 > kClearlyWithin * (groups_.bound - 1));
   }
 
+  // Together with the pairs that come next if this one fails.
+  void CheckAhead(int a, int b) {
+    constexpr int kFar = 8;  // in the queue
+    const auto idle = static_cast<size_t>(IdleThreads());
+    std::vector<std::vector<int>> next{groups_.PartsOfBoth(a, b)};
+    if (idle == 0 || IsChecked(next.front())) return;
+    std::vector<Item> seen;
+    while (!queue_.empty() && seen.size() < kFar && next.size() <= idle) {
+      seen.push_back(queue_.top());
+      queue_.pop();
+      const auto [later, key, c, d, tried] = seen.back();
+      if (!tried || !groups_.charts[c].alive || !groups_.charts[d].alive) continue;
+      std::vector<int> parts = groups_.PartsOfBoth(c, d);
+      if (!IsClearlyWithin(unions_.at({c, d}).trial) && !IsChecked(parts)) next.push_back(std::move(parts));
+    }
+    for (const Item& item : seen) queue_.push(item);
+    if (next.size() > 1)
+      FirstThat(static_cast<int>(next.size()), groups_.Poll(),
+                [&](int k, const std::function<void()>& poll) { return FineCheck(next[k], poll).fits; });
+  }
+
+  bool IsChecked(const std::vector<int>& parts) const {
+    return groups_.fine_checks.Find(groups_.bound, parts) || groups_.shared->checks.Find(groups_.bound, parts);
+  }
+
   bool IsFlatOnFine(const std::vector<int>& some) {
     if (const auto known = groups_.fine_checks.Find(groups_.bound, some)) return *known;
-    const SharedTrials::Check check = FineCheck(some);
+    const SharedTrials::Check check = FineCheck(some, groups_.Poll());
     // Of one that overlaps, CheckedMerger asks which parts do.
     if (!check.overlaps) groups_.fine_checks.Add(groups_.bound, some, check.fits);
     return check.fits;
   }
 
-  SharedTrials::Check FineCheck(const std::vector<int>& some) {
+  SharedTrials::Check FineCheck(const std::vector<int>& some, const std::function<void()>& poll) {
     SharedTrials& shared = *groups_.shared;
     if (const auto made = shared.checks.Find(groups_.bound, some)) return *made;
     const ChartPatch patch = groups_.parts.FinePatch(some);
     TrialFlattening map;
     SharedTrials::Check check;
-    check.fits = TryChart(patch, groups_.bound, groups_.Poll(), &map).flat;
+    check.fits = TryChart(patch, groups_.bound, poll, &map).flat;
     check.overlaps = !check.fits && map.overlaps > 0;
     shared.checks.Add(groups_.bound, some, check);
     shared.fine.Add(patch.faces, std::move(map));

@@ -48,7 +48,21 @@ class MergeImprover {
     }
     std::sort(moves.begin(), moves.end());
     bool moved = false;
-    for (const auto& [lost, group, q] : moves) moved |= MoveGroup(groups[group].parts, owner[q], owner);
+    for (size_t k = 0; k < moves.size(); ++k) {
+      // Most are refused.
+      std::vector<std::vector<int>> next;
+      const auto idle = static_cast<size_t>(groups_.takes_long ? IdleThreads() : 0);
+      for (size_t n = k; n < moves.size() && idle > 0 && next.size() <= idle; ++n) {
+        const auto& [lost, group, q] = moves[n];
+        if (MayMove(groups[group].parts, owner[q], owner))
+          if (auto grown = Grown(groups[group].parts, owner[q]); !groups_.IsTried(grown))
+            next.push_back(std::move(grown));
+        if (n == k && next.empty()) break;
+      }
+      groups_.TryAhead(next);
+      const auto& [lost, group, q] = moves[k];
+      moved |= MoveGroup(groups[group].parts, owner[q], owner);
+    }
     return moved;
   }
 
@@ -142,16 +156,26 @@ class MergeImprover {
     return saved;
   }
 
-  bool MoveGroup(const std::vector<int>& group, int b, std::vector<int>& owner) {
-    constexpr double kMostLonger = 0.02, kGain = 1e-6;
+  std::vector<int> Grown(const std::vector<int>& group, int b) const {
+    return ChartGroups<MeshType>::Joined(groups_.charts[b].parts, group);
+  }
+
+  // Where no trial is needed to tell that a group can't go to chart b.
+  bool MayMove(const std::vector<int>& group, int b, const std::vector<int>& owner) const {
+    constexpr double kMostLonger = 0.02;
     if (!IsMovable(group, b, owner)) return false;
+    const auto& chart = groups_.charts[owner[group.front()]];
+    return SeamSaved(group, b, owner) >= -kMostLonger &&
+           chart.area - groups_.AreaOf(group) >= groups_.TinyArea() &&
+           groups_.HangTogether(Without(chart.parts, group)) && groups_.MayStandTogether(Grown(group, b));
+  }
+
+  bool MoveGroup(const std::vector<int>& group, int b, std::vector<int>& owner) {
+    constexpr double kGain = 1e-6;
+    if (!MayMove(group, b, owner)) return false;
     const int a = owner[group.front()];
     const double saved = SeamSaved(group, b, owner);
-    if (saved < -kMostLonger || groups_.charts[a].area - groups_.AreaOf(group) < groups_.TinyArea())
-      return false;
-    const std::vector<int> rest = Without(groups_.charts[a].parts, group),
-                           grown = ChartGroups<MeshType>::Joined(groups_.charts[b].parts, group);
-    if (!groups_.HangTogether(rest) || !groups_.MayStandTogether(grown)) return false;
+    const std::vector<int> rest = Without(groups_.charts[a].parts, group), grown = Grown(group, b);
     const double before = groups_.Energy(a) + groups_.Energy(b) +
                           groups_.SeamCost(groups_.CutLength(groups_.charts[a].trial) +
                                            groups_.CutLength(groups_.charts[b].trial));

@@ -85,7 +85,9 @@ class MergeOrders {
  public:
   /// For `known` see CheckedMerger; where it is null, trials take long.
   MergeOrders(ChartGroups<MeshType>& groups, KnownFlattenings* known)
-      : groups_(groups), known_(known), merger_(groups, known) {}
+      : groups_(groups), known_(known), merger_(groups, known) {
+    groups_.takes_long = !known;
+  }
 
   void Run() {
     const double bound = groups_.params.StretchBound();
