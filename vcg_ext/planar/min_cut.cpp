@@ -27,40 +27,34 @@ std::vector<bool> MinCut(const std::vector<double>& pull, const std::vector<Flow
 
   // Each undirected edge is two arcs; a terminal's arc has a partner without capacity. Sorted by start, as
   // CSR wants.
-  struct Arc {
-    int from, to;
-    double capacity;
-    int partner;
+  std::vector<int> next(node_count + 3, 0);
+  const auto for_arcs = [&](const auto& visit) {  // start, end, capacity, that of the partner
+    for (const FlowEdge& e : edges) visit(e.a, e.b, e.capacity, e.capacity);
+    for (int n = 0; n < node_count; ++n) {
+      if (pull[n] > 0) visit(source, n, pull[n], 0.0);
+      if (pull[n] < 0) visit(n, sink, -pull[n], 0.0);
+    }
   };
-  std::vector<Arc> arcs;
-  arcs.reserve(2 * (edges.size() + pull.size()));
-  auto add = [&](int a, int b, double forward, double backward) {
-    const int k = static_cast<int>(arcs.size());
-    arcs.push_back({a, b, forward, k + 1});
-    arcs.push_back({b, a, backward, k});
-  };
-  for (const FlowEdge& e : edges) add(e.a, e.b, e.capacity, e.capacity);
-  for (int n = 0; n < node_count; ++n) {
-    if (pull[n] > 0) add(source, n, pull[n], 0);
-    if (pull[n] < 0) add(n, sink, -pull[n], 0);
-  }
-  const int arc_count = static_cast<int>(arcs.size());
-  std::vector<int> order(arc_count), place(arc_count), next(node_count + 3, 0);
-  for (const Arc& arc : arcs) ++next[arc.from + 1];
+  for_arcs([&](int a, int b, double, double) {
+    ++next[a + 1];
+    ++next[b + 1];
+  });
   std::partial_sum(next.begin(), next.end(), next.begin());
-  for (int k = 0; k < arc_count; ++k) order[next[arcs[k].from]++] = k;
+  const int arc_count = next[node_count + 2];
   std::vector<std::pair<int, int>> ends(arc_count);
   std::vector<double> capacity(arc_count), residual(arc_count);
-  for (int k = 0; k < arc_count; ++k) {
-    place[order[k]] = k;
-    ends[k] = {arcs[order[k]].from, arcs[order[k]].to};
-    capacity[k] = arcs[order[k]].capacity;
-  }
+  std::vector<Graph::edge_descriptor> reverse(arc_count);
+  for_arcs([&](int a, int b, double forward, double backward) {
+    const int there = next[a]++, back = next[b]++;
+    ends[there] = {a, b};
+    ends[back] = {b, a};
+    capacity[there] = forward;
+    capacity[back] = backward;
+    reverse[there] = Graph::edge_descriptor(b, back);
+    reverse[back] = Graph::edge_descriptor(a, there);
+  });
   const Graph graph(boost::edges_are_sorted, ends.begin(), ends.end(), node_count + 2);
-  std::vector<Graph::edge_descriptor> descriptor(arc_count), reverse(arc_count);
   const auto edge_index = boost::get(boost::edge_index, graph);
-  for (auto [it, end] = boost::edges(graph); it != end; ++it) descriptor[get(edge_index, *it)] = *it;
-  for (int k = 0; k < arc_count; ++k) reverse[k] = descriptor[place[arcs[order[k]].partner]];
 
   std::vector<boost::default_color_type> color(node_count + 2);
   std::vector<double> distance(node_count + 2);
