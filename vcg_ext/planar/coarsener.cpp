@@ -40,11 +40,12 @@ class Coarsener {
 
   void Run(int target_faces) {
     if (FaceCount() <= target_faces) return;
-    constexpr int kManyFaces = 150000, kStillMany = 100000, kFacesPerBlock = 16384;
+    constexpr int kManyOfCharts = 150000, kMany = 100000, kFacesPerBlock = 16384;
     // What lies beside the rim of a block stays finer; in the next blocks, or at last, that is made up for.
     constexpr int kAtOnce = 3;
     constexpr double kMore = 1.5;
-    for (int many = kManyFaces; FaceCount() > std::max(many, 2 * target_faces); many = kStillMany) {
+    for (int many = HasCharts() ? kManyOfCharts : kMany; FaceCount() > std::max(many, 2 * target_faces);
+         many = kMany) {
       const int before = FaceCount();
       const int goal = std::max(before / kAtOnce, static_cast<int>(kMore * target_faces));
       CollapseInBlocks(before / kFacesPerBlock + 1, goal);
@@ -83,6 +84,9 @@ class Coarsener {
 
  private:
   int FaceCount() const { return static_cast<int>(faces_.size()); }
+
+  // It is one, or has several.
+  bool HasCharts() const { return history_ != nullptr || ChartCount(task_.ids) > 1; }
 
   // Those that stand for a part of a vertex only stay.
   static std::vector<char> FreedomOf(const FannedSurface& surface) {
@@ -160,8 +164,8 @@ class Coarsener {
   void CollapseInHalves(int target_faces) {
     constexpr int kManyOfChart = 20000, kManyOfSurface = 50000, kAtOnce = 8;
     constexpr double kAboutAll = 1.05, kWorthWhile = 1.25;
+    if (!HasCharts()) return;
     const bool is_chart = history_ != nullptr;
-    if (!is_chart && ChartCount(task_.ids) < 2) return;
     const int goal = std::max(FaceCount() / kAtOnce, static_cast<int>(kAboutAll * target_faces));
     if (FaceCount() < (is_chart ? kManyOfChart : kManyOfSurface) || FaceCount() < kWorthWhile * goal) return;
     CollapseInBlocks(2, goal);
