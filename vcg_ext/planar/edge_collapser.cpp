@@ -22,7 +22,7 @@ constexpr double kLeastCosine = 0.7;    // between a face's normals before and a
 constexpr int kMostSpokes = 14;         // of a vertex that had fewer before
 constexpr double kNoArea = 1e-9;        // quality of a face that is a line
 
-constexpr int kPollEvery = 8192;  // steps
+constexpr int kPollEvery = 1024;  // steps
 
 }  // namespace
 

@@ -37,6 +37,13 @@ class CheckedMerger {
   bool MayMergeMore() const { return greedy_.MayMergeMore(); }
   int MergesWithDarts() const { return merges_with_darts_; }
 
+  /// What Merge() begins with: nothing is checked yet.
+  void MergeUnchecked(double bound) {
+    groups_.bound = bound;
+    greedy_.ForgetFailures();
+    greedy_.Run();
+  }
+
   /// Merges until done, then has all charts checked on the fine surface; those that fail there are taken
   /// apart, and merging goes on with other pairs.
   void Merge(double bound) {

@@ -108,9 +108,12 @@ class MergeOrders {
 
   void MergeToFewest(double bound) {
     std::optional<OtherOrder<MeshType>> other;
-    if (!known_) {  // worth a thread of its own, though nothing has failed yet that needn't be tried again
-      other.emplace(groups_, known_, bound);
-      other->Begin();
+    if (!known_) {
+      merger_.MergeUnchecked(bound);
+      if (groups_.alive > kFew) {  // likely to be needed, and worth a thread of its own
+        other.emplace(groups_, known_, bound);
+        other->Begin();
+      }
     }
     merger_.Merge(bound);
     merger_.MergeWithDarts(Effort::kUsual);
