@@ -11,6 +11,7 @@
 
 #include "atlas_checks.h"
 #include "flatten_charts.h"
+#include "thread_count.h"
 
 namespace dcharts {
 namespace {
@@ -162,6 +163,22 @@ TEST(OverlappingPairs, StopsAtTheLimit) {
     EXPECT_EQ(pairs.size(), limit);
     EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
     for (const auto& [i, j] : pairs) EXPECT_LT(i, j);
+  }
+}
+
+TEST(OverlappingPairs, OfManyAreTheSameForAnyNumberOfThreads) {
+  const std::vector<GridTriangle> triangles = RandomTriangles(5, 40000, 1 << 28, 1 << 22);
+  for (size_t limit : {size_t{1}, size_t{500}, triangles.size() * 10}) {
+    std::vector<Pairs> results;
+    for (int count : {1, 2, 8}) {
+      const test::Threads threads(count);
+      results.push_back(OverlappingPairs(triangles, limit));
+    }
+    EXPECT_EQ(results[1], results[0]);
+    EXPECT_EQ(results[2], results[0]);
+    EXPECT_TRUE(std::is_sorted(results[0].begin(), results[0].end()));
+    EXPECT_GE(results[0].size(), std::min<size_t>(limit, 501));
+    EXPECT_LE(results[0].size(), limit);
   }
 }
 

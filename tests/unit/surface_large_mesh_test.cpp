@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes of more than 100,000 faces: charts are found, and borders moved, on coarser copies.
 #include <algorithm>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +11,7 @@
 #include "surface/face_order.h"
 #include "surface/refine_on_copy.h"
 #include "surface_fixture.h"
+#include "thread_count.h"
 
 namespace dcharts {
 namespace {
@@ -31,6 +33,17 @@ TEST(LargeMesh, StageByStageGivesTheSoundAtlasOfOneShot) {
   const SurfaceChange stages = test::RunAll(mesh, params, test::Kept::kFile, test::kAllStages);
   EXPECT_EQ(stages.chart_ids, once.chart_ids);
   EXPECT_TRUE(stages.wedge_texcoords == once.wedge_texcoords);
+}
+
+TEST(LargeMesh, WorkThatIsDoneAheadChangesNothing) {
+  Progress progress;
+  std::vector<SurfaceChange> results;
+  for (int count : {1, 3}) {
+    const test::Threads threads(count);
+    results.push_back(TextureAtlas(LargePlush(), Params(), progress));
+  }
+  EXPECT_EQ(results[1].chart_ids, results[0].chart_ids);
+  EXPECT_TRUE(results[1].wedge_texcoords == results[0].wedge_texcoords);
 }
 
 TEST(FaceOrder, OfALargeMeshIsAPermutationWithNeighboursNearEachOther) {

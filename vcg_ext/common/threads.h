@@ -22,8 +22,8 @@ int IdleThreads();
 /// gives fewer or has no memory for them. Returns when all have ended; `work` must not throw.
 void OnThreads(int helpers, const std::function<void(bool)>& work);
 
-/// A thread for work that may wait, beside what OnThreads does. It counts as at work only for its own calls of
-/// OnThreads, so that it never takes a thread from others, but must call GiveWay() now and then.
+/// A thread for work that may wait, beside what OnThreads does. It counts as at work only for its own calls
+/// of OnThreads, so that it never takes a thread from others, but must call GiveWay() now and then.
 class SpareThread {
  public:
   /// Starts work(), which must not throw and outlives what it uses. Not where ThreadCount() is 1, nor where

@@ -30,8 +30,8 @@ class WorkAhead {
   /// Begins on a spare thread, if there is one.
   void Begin();
 
-  /// Returns when the first `count` steps are done; does them on this thread, if none has begun. Rethrows what
-  /// they, or `poll`, threw.
+  /// Returns when the first `count` steps are done; does them on this thread, if none has begun. Rethrows
+  /// what they, or `poll`, threw.
   void Finish(std::size_t count, const Poll& poll);
 
  private:

@@ -104,7 +104,8 @@ std::vector<std::pair<int, int>> OverlappingPairs(const std::vector<GridTriangle
   std::vector<int> members(start.back()), fill(start.begin(), start.end() - 1);
   for (int t = 0; t < count; ++t) for_cells(t, [&](size_t cell) { members[fill[cell]++] = t; });
 
-  // Of some cells that follow each other; ends early at the limit, or where cells before them have reached it.
+  // Of some cells that follow each other; ends early at the limit, or where cells before them have reached
+  // it.
   const auto pairs_in = [&](size_t begin, size_t end, const std::function<void()>& poll_part,
                             const auto& is_over) {
     std::vector<std::pair<int, int>> found;
@@ -138,16 +139,16 @@ std::vector<std::pair<int, int>> OverlappingPairs(const std::vector<GridTriangle
   std::atomic<int> full{parts};  // the first part that reached the limit
   InParallel(parts, poll, [&](int k, const std::function<void()>& poll_part) {
     if (k > full) return;
-    found[k] = pairs_in(cell_count * k / parts, cell_count * (k + 1) / parts, poll_part,
-                        [&] { return k > full; });
+    found[k] =
+        pairs_in(cell_count * k / parts, cell_count * (k + 1) / parts, poll_part, [&] { return k > full; });
     if (found[k].size() < limit) return;
     for (int known = full; k < known && !full.compare_exchange_weak(known, k);) {
     }
   });
   for (int k = 0; k < parts && pairs.size() < limit; ++k)
-    pairs.insert(pairs.end(), found[k].begin(),
-                 found[k].begin() + static_cast<std::ptrdiff_t>(
-                                        std::min(found[k].size(), limit - pairs.size())));
+    pairs.insert(
+        pairs.end(), found[k].begin(),
+        found[k].begin() + static_cast<std::ptrdiff_t>(std::min(found[k].size(), limit - pairs.size())));
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }

@@ -39,7 +39,10 @@ struct ChartGroups {
 
   /// `of_parts` must outlive the groups; each part is a chart at first.
   ChartGroups(ChartParts<MeshType>& of_parts, const Params& with_params, Progress& to_progress)
-      : parts(of_parts), params(with_params), progress(to_progress), shared(std::make_shared<SharedTrials>()) {
+      : parts(of_parts),
+        params(with_params),
+        progress(to_progress),
+        shared(std::make_shared<SharedTrials>()) {
     apart = parts.KeptApart();
     alive = parts.Count();
     std::vector<std::vector<int>> single(alive);
@@ -53,7 +56,9 @@ struct ChartGroups {
   }
 
   /// The same charts for another to go on with.
-  ChartGroups(const ChartGroups& others, Progress& to_progress) : ChartGroups(others) { progress = to_progress; }
+  ChartGroups(const ChartGroups& others, Progress& to_progress) : ChartGroups(others) {
+    progress = to_progress;
+  }
 
   static constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
@@ -273,8 +278,8 @@ struct ChartGroups {
   std::vector<std::vector<int>> overlapping;                         ///< parts whose chart overlapped itself
   bool overlaps_stay = true;                                         ///< what holds such parts isn't tried
   std::set<std::vector<int>> refused{};  ///< parts that failed on the fine surface as one chart
-  std::set<std::pair<int, int>> apart;  ///< parts that are not to be in one chart: they would overlap, or a
-                                        ///< kept border is between them
+  std::set<std::pair<int, int>> apart;   ///< parts that are not to be in one chart: they would overlap, or a
+                                         ///< kept border is between them
 };
 
 }  // namespace dcharts

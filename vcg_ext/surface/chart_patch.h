@@ -97,7 +97,8 @@ class PatchExtractor {
     constexpr int kManyFaces = 20000;
     const int count = static_cast<int>(charts.size());
     std::vector<int> begin{0};  // of the numbers of their faces
-    for (const std::vector<int>& faces : charts) begin.push_back(begin.back() + static_cast<int>(faces.size()));
+    for (const std::vector<int>& faces : charts)
+      begin.push_back(begin.back() + static_cast<int>(faces.size()));
     std::vector<ChartPatch> patches(charts.size());
     for (int k = 0; k < count; ++k) Number(charts[k], begin[k]);
     if (begin.back() < kManyFaces)

@@ -163,7 +163,8 @@ class GreedyMerger {
   }
 
   bool IsChecked(const std::vector<int>& parts) const {
-    return groups_.fine_checks.Find(groups_.bound, parts) || groups_.shared->checks.Find(groups_.bound, parts);
+    return groups_.fine_checks.Find(groups_.bound, parts) ||
+           groups_.shared->checks.Find(groups_.bound, parts);
   }
 
   bool IsFlatOnFine(const std::vector<int>& some) {

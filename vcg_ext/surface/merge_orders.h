@@ -151,8 +151,7 @@ class MergeOrders {
     const Poll poll = groups_.Poll();
     const auto* outcome = &other.WithoutDarts(poll);
     if (merger_.MergesWithDarts() > 0 || outcome->alive < groups_.alive) outcome = &other.WithDarts(poll);
-    if (std::make_pair(outcome->alive, outcome->seams) >=
-        std::make_pair(groups_.alive, groups_.SeamLength()))
+    if (std::make_pair(outcome->alive, outcome->seams) >= std::make_pair(groups_.alive, groups_.SeamLength()))
       return;
     groups_.charts = outcome->charts;
     groups_.alive = outcome->alive;

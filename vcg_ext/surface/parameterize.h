@@ -113,10 +113,10 @@ class Parameterizer {
     for (;;) {
       const SeamMask before = seams;
       std::vector<std::vector<int>> charts = FacesOfCharts(ids);
-      charts.erase(
-          std::remove_if(charts.begin(), charts.end(),
-                         [&](const std::vector<int>& faces) { return state_[faces.front()] == State::kDone; }),
-          charts.end());
+      charts.erase(std::remove_if(
+                       charts.begin(), charts.end(),
+                       [&](const std::vector<int>& faces) { return state_[faces.front()] == State::kDone; }),
+                   charts.end());
       if (charts.empty()) return;
       std::vector<Piece> pieces;
       for (ChartPatch& patch : PatchExtractor<MeshType>(surface_, before).ExtractAll(charts))

@@ -13,8 +13,8 @@
 
 namespace dcharts {
 
-/// What was computed of charts of some parts for a bound on their stretch, which it hangs on alone. May be used
-/// by several threads at once.
+/// What was computed of charts of some parts for a bound on their stretch, which it hangs on alone. May be
+/// used by several threads at once.
 template <class Value>
 class TrialsByParts {
  public:

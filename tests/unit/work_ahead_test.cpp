@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/work_ahead.h"
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/errors.h"
+#include "common/threads.h"
+#include "thread_count.h"
+
+namespace dcharts {
+namespace {
+
+const Poll kNoPoll = [] {};
+
+// Until it is so, but not for ever.
+template <class Condition>
+bool Comes(const Condition& condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!condition() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  return condition();
+}
+
+TEST(WorkAhead, StepsAreDoneOnceAndInTurn) {
+  for (int count : {1, 2, 8}) {
+    const test::Threads threads(count);
+    std::vector<int> done;
+    WorkAhead work({[&](const Poll&) { done.push_back(1); }, [&](const Poll&) { done.push_back(2); }});
+    work.Begin();
+    work.Finish(1, kNoPoll);
+    work.Finish(2, kNoPoll);
+    work.Finish(2, kNoPoll);
+    EXPECT_EQ(done, (std::vector<int>{1, 2}));
+  }
+}
+
+TEST(WorkAhead, IsDoneWhereItIsAskedForWhenItHasNotBegun) {
+  const test::Threads threads(2);
+  std::thread::id worker;
+  WorkAhead work({[&](const Poll&) { worker = std::this_thread::get_id(); }});
+  work.Finish(1, kNoPoll);
+  EXPECT_EQ(worker, std::this_thread::get_id());
+}
+
+TEST(WorkAhead, ThatIsNotNeededIsGivenUp) {
+  const test::Threads threads(2);
+  std::atomic<bool> ends{false};
+  {
+    WorkAhead work({[&](const Poll& poll) {
+      try {
+        for (;;) poll();
+      } catch (const Cancelled&) {
+        ends = true;
+        throw;
+      }
+    }});
+    work.Begin();
+  }
+  EXPECT_TRUE(ends);
+}
+
+TEST(WorkAhead, AnErrorComesOutWhereItIsAskedFor) {
+  for (int count : {1, 2}) {
+    const test::Threads threads(count);
+    WorkAhead work({[](const Poll&) {}, [](const Poll&) { throw Error("step 2"); }});
+    work.Begin();
+    work.Finish(1, kNoPoll);
+    EXPECT_THROW(work.Finish(2, kNoPoll), Error);
+  }
+}
+
+TEST(WorkAhead, GivesWayToHelpers) {
+  const test::Threads threads(2);
+  std::atomic<int> polls{0};
+  WorkAhead work({[&](const Poll& poll) {
+    for (;;) {
+      poll();
+      ++polls;
+    }
+  }});
+  work.Begin();
+  ASSERT_TRUE(Comes([&] { return polls > 0; }));
+  EXPECT_EQ(FreeThreads(), 1);
+  EXPECT_EQ(IdleThreads(), 0);
+  std::atomic<bool> rested{false};
+  OnThreads(1, [&](bool calls) {
+    if (calls) {
+      int before = -1;
+      rested = Comes([&] {
+        const int last = std::exchange(before, polls.load());
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        return last == polls;
+      });
+    }
+    Comes([&] { return rested.load(); });
+  });
+  EXPECT_TRUE(rested);
+  const int after = polls;
+  EXPECT_TRUE(Comes([&] { return polls > after; }));
+}
+
+TEST(WorkAhead, TakesThePlaceOfTheThreadThatWaitsForIt) {
+  const test::Threads threads(2);
+  int helpers_beside = -1;
+  std::atomic<bool> waits{false};
+  WorkAhead work({[&](const Poll& poll) {
+    EXPECT_TRUE(Comes([&] {
+      poll();
+      return waits.load();
+    }));
+    std::atomic<int> helpers{0};
+    OnThreads(4, [&](bool calls) { helpers += calls ? 0 : 1; });
+    helpers_beside = helpers;
+  }});
+  work.Begin();
+  work.Finish(1, [&] { waits = true; });
+  EXPECT_EQ(helpers_beside, 1);
+  EXPECT_TRUE(Comes([] { return IdleThreads() == 1; }));
+}
+
+}  // namespace
+}  // namespace dcharts
