@@ -87,7 +87,7 @@ std::vector<bool> CutOfGroups(const std::vector<double>& pull, const std::vector
 
 std::vector<bool> BandedMinCut(const std::vector<double>& pull, const std::vector<FlowEdge>& edges,
                                const std::function<void()>& poll) {
-  constexpr size_t kManyNodes = 6000;
+  constexpr size_t kManyNodes = 10000;
   if (pull.size() <= kManyNodes) return MinCut(pull, edges);
   const Adjacency adjacency(static_cast<int>(pull.size()), edges);
   std::vector<int> group;
