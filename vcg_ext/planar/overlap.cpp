@@ -132,7 +132,7 @@ std::vector<std::pair<int, int>> OverlappingPairs(const std::vector<GridTriangle
     }
     return found;
   };
-  constexpr int kCellsPerPart = 8192;
+  constexpr int kCellsPerPart = 32768;  // fewer are not worth a thread
   const size_t cell_count = start.size() - 1;
   const int parts = static_cast<int>(cell_count / kCellsPerPart) + 1;
   std::vector<std::vector<std::pair<int, int>>> found(parts);

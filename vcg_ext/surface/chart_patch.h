@@ -80,6 +80,9 @@ ChartPatch CutOpen(const ChartPatch& patch, const std::vector<int>& edges);
 template <class MeshType>
 class PatchExtractor {
  public:
+  /// Of fewer faces, what is done once per chart is not worth a thread.
+  static constexpr int kManyFaces = 20000;
+
   /// Both must outlive the extractor.
   PatchExtractor(const SurfaceGraph<MeshType>& surface, const SeamMask& seams)
       : surface_(surface), seams_(seams), local_face_(surface.FaceCount(), -1) {}
@@ -94,7 +97,6 @@ class PatchExtractor {
 
   /// Several charts, none of which has faces of another: on all threads, where they are large.
   std::vector<ChartPatch> ExtractAll(const std::vector<std::vector<int>>& charts) {
-    constexpr int kManyFaces = 20000;
     const int count = static_cast<int>(charts.size());
     std::vector<int> begin{0};  // of the numbers of their faces
     for (const std::vector<int>& faces : charts)
