@@ -95,6 +95,15 @@ void InParallel(int count, const std::function<void()>& poll, const Work& work) 
   ShareOut(count, ask, work);
 }
 
+/// InParallel where that is worth it, else on this thread alone.
+template <class Work>
+void InParallelIf(bool is_worth_it, int count, const std::function<void()>& poll, const Work& work) {
+  if (is_worth_it)
+    InParallel(count, poll, work);
+  else
+    for (int k = 0; k < count; ++k) work(k, poll);
+}
+
 /// The first k of 0..count-1 for which work(k, poll) returns true, else `count`. Those after it are tried
 /// ahead on threads that are free, and given up by `poll`; they must write nothing that the result hangs on.
 template <class Work>

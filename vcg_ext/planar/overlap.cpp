@@ -2,7 +2,6 @@
 #include "planar/overlap.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 
@@ -104,17 +103,10 @@ std::vector<std::pair<int, int>> OverlappingPairs(const std::vector<GridTriangle
   std::vector<int> members(start.back()), fill(start.begin(), start.end() - 1);
   for (int t = 0; t < count; ++t) for_cells(t, [&](size_t cell) { members[fill[cell]++] = t; });
 
-  // Of some cells that follow each other; ends early at the limit, or where cells before them have reached
-  // it.
-  const auto pairs_in = [&](size_t begin, size_t end, const std::function<void()>& poll_part,
-                            const auto& is_over) {
+  // Of some cells that follow each other, until the limit.
+  const auto pairs_in = [&](size_t begin, size_t end) {
     std::vector<std::pair<int, int>> found;
-    constexpr size_t kPollEvery = 65536;  // cells
-    for (size_t cell = begin; cell < end; ++cell) {
-      if (cell % kPollEvery == 0) {
-        if (poll_part) poll_part();
-        if (is_over()) return found;
-      }
+    for (size_t cell = begin; cell < end; ++cell)
       for (int m = start[cell]; m < start[cell + 1]; ++m)
         for (int n = m + 1; n < start[cell + 1]; ++n) {
           const int i = members[m], j = members[n];
@@ -129,21 +121,15 @@ std::vector<std::pair<int, int>> OverlappingPairs(const std::vector<GridTriangle
           found.push_back({i, j});
           if (found.size() >= limit) return found;
         }
-    }
     return found;
   };
   constexpr int kCellsPerPart = 32768;  // fewer are not worth a thread
   const size_t cell_count = start.size() - 1;
   const int parts = static_cast<int>(cell_count / kCellsPerPart) + 1;
   std::vector<std::vector<std::pair<int, int>>> found(parts);
-  std::atomic<int> full{parts};  // the first part that reached the limit
-  InParallel(parts, poll, [&](int k, const std::function<void()>& poll_part) {
-    if (k > full) return;
-    found[k] =
-        pairs_in(cell_count * k / parts, cell_count * (k + 1) / parts, poll_part, [&] { return k > full; });
-    if (found[k].size() < limit) return;
-    for (int known = full; k < known && !full.compare_exchange_weak(known, k);) {
-    }
+  FirstThat(parts, poll, [&](int k, const std::function<void()>&) {
+    found[k] = pairs_in(cell_count * k / parts, cell_count * (k + 1) / parts);
+    return found[k].size() >= limit;
   });
   for (int k = 0; k < parts && pairs.size() < limit; ++k)
     pairs.insert(

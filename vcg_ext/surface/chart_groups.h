@@ -6,7 +6,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -131,12 +130,8 @@ struct ChartGroups {
     } else if (known->second.second.flat || known->second.first >= CoarseBound()) {
       return known->second.second;
     }
-    const auto made = shared->coarse.Find(CoarseBound(), some);
-    if (made) return Record(some, *made);
     progress.get().Poll();
-    const ChartTrial trial = TryChart(parts.CoarsePatch(some), CoarseBound(), Poll());
-    shared->coarse.Add(CoarseBound(), some, trial);
-    return Record(some, trial);
+    return Record(some, SharedTrial(some, Poll()));
   }
 
   /// These parts are never to be a chart.
@@ -147,20 +142,19 @@ struct ChartGroups {
     std::vector<const std::vector<int>*> open;
     for (const std::vector<int>& some : sets)
       if (trials.find(some) == trials.end() && !HoldsOverlap(some)) open.push_back(&some);
-    std::vector<std::optional<ChartTrial>> made(open.size());
-    std::vector<ChartPatch> patches(open.size());
-    for (size_t k = 0; k < open.size(); ++k) {
-      made[k] = shared->coarse.Find(CoarseBound(), *open[k]);
-      if (!made[k]) patches[k] = parts.CoarsePatch(*open[k]);
-    }
+    std::vector<ChartTrial> made(open.size());
     ParallelForLargestFirst(
-        static_cast<int>(open.size()), progress, [&](int k) { return patches[k].faces.size(); },
-        [&](int k, const std::function<void()>& poll) {
-          if (made[k]) return;
-          made[k] = TryChart(patches[k], CoarseBound(), poll);
-          shared->coarse.Add(CoarseBound(), *open[k], *made[k]);
-        });
-    for (size_t k = 0; k < open.size(); ++k) Record(*open[k], *made[k]);
+        static_cast<int>(open.size()), progress, [&](int k) { return parts.CoarseFaceCount(*open[k]); },
+        [&](int k, const std::function<void()>& poll) { made[k] = SharedTrial(*open[k], poll); });
+    for (size_t k = 0; k < open.size(); ++k) Record(*open[k], made[k]);
+  }
+
+  /// Made once by all orders; may be called by several threads at once.
+  ChartTrial SharedTrial(const std::vector<int>& some, const std::function<void()>& poll) {
+    if (const auto made = shared->coarse.Find(CoarseBound(), some)) return *made;
+    const ChartTrial trial = TryChart(parts.CoarsePatch(some), CoarseBound(), poll);
+    shared->coarse.Add(CoarseBound(), some, trial);
+    return trial;
   }
 
   /// Its trial takes no time.
@@ -171,9 +165,8 @@ struct ChartGroups {
   /// Makes trials that are likely to be asked for next on idle threads, where they take long.
   void TryAhead(const std::vector<std::vector<int>>& sets) {
     if (!takes_long || sets.size() < 2) return;
-    InParallel(static_cast<int>(sets.size()), Poll(), [&](int k, const std::function<void()>& poll) {
-      shared->coarse.Add(CoarseBound(), sets[k], TryChart(parts.CoarsePatch(sets[k]), CoarseBound(), poll));
-    });
+    InParallel(static_cast<int>(sets.size()), Poll(),
+               [&](int k, const std::function<void()>& poll) { SharedTrial(sets[k], poll); });
   }
 
   const ChartTrial& Record(const std::vector<int>& some, const ChartTrial& trial) {

@@ -54,6 +54,11 @@ class ChartParts {
 
   /// Of the copy for trials.
   ChartPatch CoarsePatch(const std::vector<int>& parts) { return Patch(parts, coarse_); }
+  size_t CoarseFaceCount(const std::vector<int>& parts) const {
+    size_t count = 0;
+    for (int part : parts) count += coarse_.FacesOf()[part].size();
+    return count;
+  }
   /// Of the copy for checks: the surface itself, if that isn't large.
   ChartPatch FinePatch(const std::vector<int>& parts) { return Patch(parts, fine_); }
   const CoarseCopy& Fine() const { return fine_; }

@@ -103,10 +103,8 @@ class PatchExtractor {
       begin.push_back(begin.back() + static_cast<int>(faces.size()));
     std::vector<ChartPatch> patches(charts.size());
     for (int k = 0; k < count; ++k) Number(charts[k], begin[k]);
-    if (begin.back() < kManyFaces)
-      for (int k = 0; k < count; ++k) patches[k] = Numbered(charts[k], begin[k]);
-    else
-      InParallel(count, {}, [&](int k, const auto&) { patches[k] = Numbered(charts[k], begin[k]); });
+    InParallelIf(begin.back() >= kManyFaces, count, {},
+                 [&](int k, const auto&) { patches[k] = Numbered(charts[k], begin[k]); });
     for (const std::vector<int>& faces : charts) Forget(faces);
     return patches;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -117,6 +118,16 @@ inline std::vector<std::vector<int>> FacesOfCharts(const ChartIds& ids) {
   std::vector<std::vector<int>> faces(ChartCount(ids));
   for (int f = 0; f < static_cast<int>(ids.size()); ++f)
     if (ids[f] >= 0) faces[ids[f]].push_back(f);
+  return faces;
+}
+
+/// Of the charts whose first face is_wanted() takes alone.
+template <class IsWanted>
+std::vector<std::vector<int>> FacesOfCharts(const ChartIds& ids, const IsWanted& is_wanted) {
+  std::vector<std::vector<int>> faces = FacesOfCharts(ids);
+  faces.erase(std::remove_if(faces.begin(), faces.end(),
+                             [&](const std::vector<int>& chart) { return !is_wanted(chart.front()); }),
+              faces.end());
   return faces;
 }
 

@@ -77,11 +77,7 @@ class StretchCutter {
       again = false;
       std::vector<Cut> cuts;
       PatchExtractor<MeshType> extractor(surface_, seams);
-      std::vector<std::vector<int>> open = FacesOfCharts(ids);
-      open.erase(std::remove_if(open.begin(), open.end(),
-                                [&](const std::vector<int>& faces) { return done_[faces.front()]; }),
-                 open.end());
-      for (ChartPatch& patch : extractor.ExtractAll(open)) {
+      for (ChartPatch& patch : extractor.ExtractAll(FacesOfCharts(ids, [&](int f) { return !done_[f]; }))) {
         DartedChart chart = Uncut(std::move(patch));
         const DartGoal goal = GoalOf(chart.patch, params_.StretchBound());
         cuts.push_back({std::move(chart), goal, std::nullopt});

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -54,9 +55,8 @@ class MergeImprover {
       const auto idle = static_cast<size_t>(groups_.takes_long ? IdleThreads() : 0);
       for (size_t n = k; n < moves.size() && idle > 0 && next.size() <= idle; ++n) {
         const auto& [lost, group, q] = moves[n];
-        if (MayMove(groups[group].parts, owner[q], owner))
-          if (auto grown = Grown(groups[group].parts, owner[q]); !groups_.IsTried(grown))
-            next.push_back(std::move(grown));
+        auto move = MoveOf(groups[group].parts, owner[q], owner);
+        if (move && !groups_.IsTried(move->grown)) next.push_back(std::move(move->grown));
         if (n == k && next.empty()) break;
       }
       groups_.TryAhead(next);
@@ -156,26 +156,31 @@ class MergeImprover {
     return saved;
   }
 
-  std::vector<int> Grown(const std::vector<int>& group, int b) const {
-    return ChartGroups<MeshType>::Joined(groups_.charts[b].parts, group);
-  }
+  // Of a group from one chart to another: the parts that both have then, and by how much seams get shorter.
+  struct Move {
+    std::vector<int> rest, grown;
+    double saved;
+  };
 
-  // Where no trial is needed to tell that a group can't go to chart b.
-  bool MayMove(const std::vector<int>& group, int b, const std::vector<int>& owner) const {
+  // To chart b; none where no trial is needed to tell that the group can't go there.
+  std::optional<Move> MoveOf(const std::vector<int>& group, int b, const std::vector<int>& owner) const {
     constexpr double kMostLonger = 0.02;
-    if (!IsMovable(group, b, owner)) return false;
+    if (!IsMovable(group, b, owner)) return std::nullopt;
     const auto& chart = groups_.charts[owner[group.front()]];
-    return SeamSaved(group, b, owner) >= -kMostLonger &&
-           chart.area - groups_.AreaOf(group) >= groups_.TinyArea() &&
-           groups_.HangTogether(Without(chart.parts, group)) && groups_.MayStandTogether(Grown(group, b));
+    const double saved = SeamSaved(group, b, owner);
+    if (saved < -kMostLonger || chart.area - groups_.AreaOf(group) < groups_.TinyArea()) return std::nullopt;
+    Move move{Without(chart.parts, group), ChartGroups<MeshType>::Joined(groups_.charts[b].parts, group),
+              saved};
+    if (!groups_.HangTogether(move.rest) || !groups_.MayStandTogether(move.grown)) return std::nullopt;
+    return move;
   }
 
   bool MoveGroup(const std::vector<int>& group, int b, std::vector<int>& owner) {
     constexpr double kGain = 1e-6;
-    if (!MayMove(group, b, owner)) return false;
+    const std::optional<Move> move = MoveOf(group, b, owner);
+    if (!move) return false;
     const int a = owner[group.front()];
-    const double saved = SeamSaved(group, b, owner);
-    const std::vector<int> rest = Without(groups_.charts[a].parts, group), grown = Grown(group, b);
+    const auto& [rest, grown, saved] = *move;
     const double before = groups_.Energy(a) + groups_.Energy(b) +
                           groups_.SeamCost(groups_.CutLength(groups_.charts[a].trial) +
                                            groups_.CutLength(groups_.charts[b].trial));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "common/parallel.h"
@@ -32,16 +33,13 @@ int CutCharts(const SurfaceGraph<MeshType>& surface, const ChartIds& ids, Progre
   const std::vector<ChartPatch> patches =
       PatchExtractor<MeshType>(surface, seams).ExtractAll(FacesOfCharts(ids));
   std::vector<std::vector<int>> cuts(patches.size());
-  const int chart_count = static_cast<int>(patches.size());
-  const auto find_cuts = [&](int k, const auto& poll) {
-    poll();
-    cuts[k] = cuts_of(patches[k]);
-  };
-  const auto poll = [&] { progress.Poll(); };
-  if (surface.FaceCount() < PatchExtractor<MeshType>::kManyFaces)
-    for (int k = 0; k < chart_count; ++k) find_cuts(k, poll);
-  else
-    InParallel(chart_count, poll, find_cuts);
+  InParallelIf(
+      surface.FaceCount() >= PatchExtractor<MeshType>::kManyFaces, static_cast<int>(patches.size()),
+      [&] { progress.Poll(); },
+      [&](int k, const std::function<void()>& poll) {
+        poll();
+        cuts[k] = cuts_of(patches[k]);
+      });
   int count = 0;
   for (size_t k = 0; k < patches.size(); ++k) {
     MarkCuts(surface, patches[k], cuts[k], seams);

@@ -112,11 +112,7 @@ class Parameterizer {
   void FlattenAll(ChartIds& ids, SeamMask& seams) {
     for (;;) {
       const SeamMask before = seams;
-      std::vector<std::vector<int>> charts = FacesOfCharts(ids);
-      charts.erase(std::remove_if(
-                       charts.begin(), charts.end(),
-                       [&](const std::vector<int>& faces) { return state_[faces.front()] == State::kDone; }),
-                   charts.end());
+      const auto charts = FacesOfCharts(ids, [&](int f) { return state_[f] != State::kDone; });
       if (charts.empty()) return;
       std::vector<Piece> pieces;
       for (ChartPatch& patch : PatchExtractor<MeshType>(surface_, before).ExtractAll(charts))

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -22,11 +21,8 @@ void SplitBadCharts(const SurfaceGraph<MeshType>& surface, double bound, Progres
   std::vector<char> good(surface.FaceCount(), 0);
   for (bool again = true; again;) {
     again = false;
-    std::vector<std::vector<int>> charts = FacesOfCharts(ids);
-    charts.erase(std::remove_if(charts.begin(), charts.end(),
-                                [&](const std::vector<int>& faces) { return good[faces.front()]; }),
-                 charts.end());
-    const std::vector<ChartPatch> patches = extractor.ExtractAll(charts);
+    const std::vector<ChartPatch> patches =
+        extractor.ExtractAll(FacesOfCharts(ids, [&](int f) { return !good[f]; }));
     std::vector<std::vector<int>> sides(patches.size());  // of those that are to be split
     ParallelForLargestFirst(
         static_cast<int>(patches.size()), progress, [&](int k) { return patches[k].faces.size(); },
