@@ -19,10 +19,10 @@
 
 namespace dcharts {
 
-/// Calls work(k, poll) for k = 0..count-1, on this thread and those that are free; each call must write only
-/// what is its own, so that the result doesn't depend on the number of threads. `poll` is for the work to
-/// call now and then: on the calling thread it calls ask(items done), which may throw; on others it ends the
-/// work once another has thrown. An exception stops all and is rethrown.
+/// Calls work(k, poll) for k = 0..count-1, on this thread and those that are free or become so; each call
+/// must write only what is its own, so that the result doesn't depend on the number of threads. `poll` is for
+/// the work to call now and then: on the calling thread it calls ask(items done), which may throw; on others
+/// it ends the work once another has thrown. An exception stops all and is rethrown.
 template <class Ask, class Work>
 void ShareOut(int count, const Ask& ask, const Work& work) {
   std::atomic<bool> stop{false};
@@ -30,36 +30,50 @@ void ShareOut(int count, const Ask& ask, const Work& work) {
   std::mutex mutex;
   std::condition_variable ended;
   std::exception_ptr failure;
-  const auto work_until_empty = [&](bool asks) {
+  const auto stop_if_it_throws = [&](const auto& part) {
     try {
-      const std::function<void()> poll = [&] {
-        if (stop) throw Cancelled();
-        if (asks) ask(static_cast<int>(done));
-      };
-      for (int k = next++; k < count && !stop; k = next++) {
-        poll();
-        work(k, poll);
-        ++done;
-      }
-      // The calling thread alone may talk to the host: it stays awake for the others.
-      std::optional<WaitsForHelpers> waits;
-      while (asks && done < count && !stop) {
-        if (!waits) waits.emplace();
-        poll();
-        std::unique_lock<std::mutex> lock(mutex);
-        ended.wait_for(lock, std::chrono::milliseconds(1), [&] { return done >= count || stop; });
-      }
+      part();
     } catch (...) {
       const std::lock_guard<std::mutex> lock(mutex);
       if (!failure) failure = std::current_exception();
       stop = true;
     }
-    if (!asks) {
-      const std::lock_guard<std::mutex> lock(mutex);
-      ended.notify_one();
+  };
+  const auto work_until_empty = [&](const std::function<void()>& poll) {
+    for (int k = next++; k < count && !stop; k = next++) {
+      poll();
+      work(k, poll);
+      ++done;
     }
   };
-  OnThreads(std::min(ThreadCount(), count) - 1, work_until_empty);
+  const auto help = [&] {
+    stop_if_it_throws([&] {
+      work_until_empty([&] {
+        if (stop) throw Cancelled();
+      });
+    });
+    const std::lock_guard<std::mutex> lock(mutex);
+    ended.notify_one();
+  };
+  {
+    Helpers helpers(std::min(ThreadCount(), count) - 1, help);
+    stop_if_it_throws([&] {
+      const std::function<void()> poll = [&] {
+        if (stop) throw Cancelled();
+        if (next < count) helpers.StartFree();
+        ask(static_cast<int>(done));
+      };
+      work_until_empty(poll);
+      // This thread alone may talk to the host: it stays awake for the others.
+      std::optional<WaitsForHelpers> waits;
+      while (done < count && !stop) {
+        if (!waits) waits.emplace();
+        poll();
+        std::unique_lock<std::mutex> lock(mutex);
+        ended.wait_for(lock, std::chrono::milliseconds(1), [&] { return done >= count || stop; });
+      }
+    });
+  }
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -11,7 +11,7 @@
 #include <new>
 #include <system_error>
 #include <thread>
-#include <vector>
+#include <utility>
 
 namespace dcharts {
 
@@ -73,36 +73,6 @@ std::thread Started(const Work& work) {
   return thread;
 }
 
-// Starts threads and keeps them waiting until all there are have been started.
-class HeldThreads {
- public:
-  HeldThreads(int count, const std::function<void(bool)>& work) {
-    try {
-      threads_.reserve(static_cast<std::size_t>(count));
-      for (int k = 0; k < count; ++k)
-        threads_.push_back(Started([this, &work, for_spare = is_spare] {
-          is_spare = for_spare;
-          while (!go_) std::this_thread::yield();
-          work(false);
-          ReturnHelpers(1);
-        }));
-    } catch (const std::system_error&) {
-    } catch (const std::bad_alloc&) {
-    }
-    helpers_at_work -= count - static_cast<int>(threads_.size());
-    go_ = true;
-  }
-  HeldThreads(const HeldThreads&) = delete;
-  HeldThreads& operator=(const HeldThreads&) = delete;
-  ~HeldThreads() {
-    for (std::thread& thread : threads_) thread.join();
-  }
-
- private:
-  std::atomic<bool> go_{false};
-  std::vector<std::thread> threads_;
-};
-
 }  // namespace
 
 WaitsForHelpers::WaitsForHelpers() { ReturnHelpers(1); }
@@ -142,10 +112,28 @@ int FreeThreads() { return std::max(0, MostHelpers() - helpers_at_work); }
 
 int IdleThreads() { return std::max(0, FreeThreads() - (is_spare ? 0 : spares_at_work.load())); }
 
+Helpers::Helpers(int most, std::function<void()> work) : most_(most), work_(std::move(work)) { StartFree(); }
+
+Helpers::~Helpers() {
+  for (std::thread& thread : threads_) thread.join();
+}
+
 // Not OpenMP: where a thread can't be made, its library ends the program.
-void OnThreads(int helpers, const std::function<void(bool)>& work) {
-  const HeldThreads threads(TakeHelpers(helpers), work);
-  work(true);
+void Helpers::StartFree() {
+  int free = TakeHelpers(most_ - static_cast<int>(threads_.size()));
+  if (free == 0) return;
+  try {
+    threads_.reserve(static_cast<std::size_t>(most_));
+    for (; free > 0; --free)
+      threads_.push_back(Started([this, for_spare = is_spare] {
+        is_spare = for_spare;
+        work_();
+        ReturnHelpers(1);
+      }));
+  } catch (const std::system_error&) {
+  } catch (const std::bad_alloc&) {
+  }
+  if (free > 0) ReturnHelpers(free);
 }
 
 }  // namespace dcharts

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 #include <thread>
+#include <vector>
 
 namespace dcharts {
 
@@ -11,19 +12,33 @@ namespace dcharts {
 /// there are cores. At least 1.
 int ThreadCount();
 
-/// How many helpers a call of OnThreads would get now.
+/// How many helpers would be free now.
 int FreeThreads();
 
 /// How many of them no spare thread uses: for what may turn out to be in vain.
 int IdleThreads();
 
-/// Calls work(true) on this thread and at the same time work(false) on `helpers` others. There are fewer
-/// where more than ThreadCount() threads would be at work in all, as within such a call, and where the system
-/// gives fewer or has no memory for them. Returns when all have ended; `work` must not throw.
-void OnThreads(int helpers, const std::function<void(bool)>& work);
+/// Threads that help the one that made this with a work, until it has no more for them.
+class Helpers {
+ public:
+  /// Starts up to `most`, each of which calls work(), which must not throw. There are fewer where more than
+  /// ThreadCount() threads would be at work in all, as within such a work, and where the system gives fewer
+  /// or has no memory for them.
+  Helpers(int most, std::function<void()> work);
+  ~Helpers();  ///< waits for their end
+  Helpers(const Helpers&) = delete;
 
-/// A thread for work that may wait, beside what OnThreads does. It counts as at work only for its own calls
-/// of OnThreads, so that it never takes a thread from others, but must call GiveWay() now and then.
+  /// Starts those as well that have become free since. For the thread that made this.
+  void StartFree();
+
+ private:
+  const int most_;
+  const std::function<void()> work_;
+  std::vector<std::thread> threads_;
+};
+
+/// A thread for work that may wait, beside what Helpers do. It counts as at work only for helpers of its own,
+/// so that it never takes a thread from others, but must call GiveWay() now and then.
 class SpareThread {
  public:
   /// Starts work(), which must not throw and outlives what it uses. Not where ThreadCount() is 1, nor where
@@ -40,8 +55,7 @@ class SpareThread {
   std::thread thread_;
 };
 
-/// While it lives, the thread that called OnThreads only waits for its helpers: one of them may have a helper
-/// in its place.
+/// While it lives, this thread only waits for its helpers: one of them may have a helper in its place.
 class WaitsForHelpers {
  public:
   WaitsForHelpers();
