@@ -317,11 +317,12 @@ class CheckedMerger {
       goal.l2_stretch = coarse ? groups_.CoarseBound() : BoundWithDarts();
       goal.linf_stretch = kNoBound;
       goal.most_darts = effort == Effort::kMost ? kManyDarts : kFewDarts;
+      goal.is_trial = !coarse && !known_;
       goal.longest = groups_.params.max_dart_percent / 100 * result.open.Diagonal();
       // No bound on the length here: Cut has none and is to find the same darts.
       KnownOfChart uncut;
       Flattening flat;
-      if (!coarse && !IsLargeChart(result.open.mesh)) {
+      if (!coarse && known_ && !IsLargeChart(result.open.mesh)) {
         flat = FlatOf(FineTrial(whole, result.open, poll));
         uncut.flat = &flat;
       }

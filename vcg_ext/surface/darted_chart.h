@@ -23,6 +23,9 @@ struct DartGoal {
   int most_darts = 12;
   /// A large chart that a coarser one shows to stay above `l2_stretch` may be left unflattened.
   bool may_give_up = false;
+  /// It only counts whether the goal is reached: no map is made of a chart that a coarser one, or its own with
+  /// that one's darts, shows to stay above it.
+  bool is_trial = false;
   double unit =
       1;  ///< the length of dart for which the Linf stretch has to fall by kLinfPerUnit, model units
 };

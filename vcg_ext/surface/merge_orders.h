@@ -151,7 +151,10 @@ class MergeOrders {
   void TakeBetter(OtherOrder<MeshType>& other) {
     const Poll poll = groups_.Poll();
     const auto* outcome = &other.WithoutDarts(poll);
-    if (merger_.MergesWithDarts() > 0 || outcome->alive < groups_.alive) outcome = &other.WithDarts(poll);
+    const bool has_fewer = outcome->alive < groups_.alive;
+    // Where trials take long, darts are not to make up for charts that it has more.
+    const bool may_make_up = !groups_.takes_long || outcome->alive == groups_.alive;
+    if (has_fewer || (merger_.MergesWithDarts() > 0 && may_make_up)) outcome = &other.WithDarts(poll);
     if (std::make_pair(outcome->alive, outcome->seams) >= std::make_pair(groups_.alive, groups_.SeamLength()))
       return;
     groups_.charts = outcome->charts;

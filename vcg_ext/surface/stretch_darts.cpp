@@ -63,6 +63,12 @@ DartedChart CutCoarserChart(const ChartPatch& patch, const DartGoal& goal,
   return CutStretchDarts(patch, ForMeanStretch(goal), poll);
 }
 
+// Whether darts are looked for on a coarser chart.
+bool GoesByCoarser(const ChartPatch& patch, const DartGoal& goal) {
+  constexpr int kManyForTrial = 16000;
+  return IsLargeChart(patch.mesh) || (goal.is_trial && patch.mesh.triangles.rows() >= kManyForTrial);
+}
+
 // A large chart gets the darts that a coarser one gets, `few` of `coarser`: each to the same vertex, along
 // the shortest way there is here. It is not flattened: `flat` has the figures of the coarser one. `coarser`:
 // of the patch.
@@ -132,7 +138,7 @@ DartedChart CutLargeUnfinished(const ChartPatch& patch, const DartGoal& goal,
     if (again || !goal.may_give_up) break;
     if (static_cast<double>(known.coarser->LastQuarter(poll).mesh.triangles.rows()) < kFiner * faces) break;
   }
-  return best.finished ? best : FlatUncut(patch, goal, poll, known);
+  return best.finished || goal.is_trial ? best : FlatUncut(patch, goal, poll, known);
 }
 
 // A chart with the darts that a coarser one gets, finished; nothing where it doesn't reach the goal. Which
@@ -152,7 +158,7 @@ std::optional<DartedChart> CutAsCoarser(const ChartPatch& patch, const DartGoal&
 // large chart all, by the figures of a coarser one. `known` must have the coarser charts of a large one.
 DartedChart CutDartsUnfinished(const ChartPatch& patch, const DartGoal& goal,
                                const std::function<void()>& poll, const KnownOfChart& known) {
-  if (IsLargeChart(patch.mesh)) return CutLargeUnfinished(patch, goal, poll, known);
+  if (GoesByCoarser(patch, goal)) return CutLargeUnfinished(patch, goal, poll, known);
   // A chart that needs them is not finished without.
   if (known.mean_darts && HasFinish(goal) && !HasConePoints(patch) &&
       IsAbove(goal, poll, patch, known.mean_darts->l2_uncut)) {
@@ -177,8 +183,8 @@ DartedChart CutDartsUnfinished(const ChartPatch& patch, const DartGoal& goal,
   return chart;
 }
 
-KnownOfChart WithCoarser(const ChartPatch& patch, KnownOfChart known) {
-  if (IsLargeChart(patch.mesh) && !known.coarser)
+KnownOfChart WithCoarser(const ChartPatch& patch, const DartGoal& goal, KnownOfChart known) {
+  if (GoesByCoarser(patch, goal) && !known.coarser)
     known.coarser = std::make_shared<CoarserCharts>(Normalized(patch.mesh));
   return known;
 }
@@ -187,7 +193,7 @@ KnownOfChart WithCoarser(const ChartPatch& patch, KnownOfChart known) {
 
 DartedChart CutMeanDarts(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
                          const KnownOfChart& known) {
-  DartedChart chart = CutDartsUnfinished(patch, goal, poll, WithCoarser(patch, known));
+  DartedChart chart = CutDartsUnfinished(patch, goal, poll, WithCoarser(patch, goal, known));
   if (chart.finished || IsLargeChart(patch.mesh)) return chart;
   // The map of a dart's trial may have twice the least stretch.
   Flattening better = FlatWithoutFinish(chart.patch, &chart.flat.uv, poll);
@@ -230,10 +236,12 @@ bool FinishDarts(const DartGoal& goal, const std::function<void()>& poll, Darted
 
 DartedChart CutStretchDarts(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
                             const KnownOfChart& known) {
-  const KnownOfChart all_known = WithCoarser(patch, known);
+  const KnownOfChart all_known = WithCoarser(patch, goal, known);
   DartedChart chart = CutDartsUnfinished(patch, goal, poll, all_known);
-  if (chart.finished || ((chart.count > 0 || !known.flat) && FinishDarts(goal, poll, chart))) return chart;
-  return FlatUncut(patch, goal, poll, all_known);
+  const bool may_do = !goal.is_trial || chart.flat.l2_stretch <= goal.l2_stretch;
+  if (chart.finished || (may_do && (chart.count > 0 || !known.flat) && FinishDarts(goal, poll, chart)))
+    return chart;
+  return goal.is_trial ? Uncut(patch) : FlatUncut(patch, goal, poll, all_known);
 }
 
 }  // namespace dcharts
