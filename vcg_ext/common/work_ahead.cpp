@@ -10,8 +10,16 @@ namespace dcharts {
 WorkAhead::~WorkAhead() { is_given_up_ = true; }
 
 void WorkAhead::Begin() {
+  if (thread_) return;
   thread_.emplace([this] { Work(); });
   if (!thread_->HasStarted()) thread_.reset();
+}
+
+Poll WorkAhead::BeginningAfter(std::chrono::milliseconds patience, const Poll& poll) {
+  return [this, poll, begin = std::chrono::steady_clock::now() + patience] {
+    if (poll) poll();
+    if (std::chrono::steady_clock::now() > begin && IdleThreads() > 0) Begin();
+  };
 }
 
 void WorkAhead::Finish(std::size_t count, const Poll& poll) {
@@ -23,7 +31,7 @@ void WorkAhead::Finish(std::size_t count, const Poll& poll) {
   std::unique_lock<std::mutex> lock(mutex_);
   while (done_ < count && !failure_) {
     lock.unlock();
-    poll();
+    if (poll) poll();
     lock.lock();
     changed_.wait_for(lock, std::chrono::milliseconds(1));
   }

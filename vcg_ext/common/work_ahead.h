@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
@@ -28,11 +29,15 @@ class WorkAhead {
   WorkAhead(const WorkAhead&) = delete;
   ~WorkAhead();  ///< gives up what isn't done
 
-  /// Begins on a spare thread, if there is one.
+  /// Begins on a spare thread, if there is one and it has not begun.
   void Begin();
 
+  /// A poll for what is done meanwhile: calls `poll`, which may be null, and begins once that has lasted long
+  /// and a thread is idle.
+  Poll BeginningAfter(std::chrono::milliseconds patience, const Poll& poll);
+
   /// Returns when the first `count` steps are done; does them on this thread, if none has begun. Rethrows
-  /// what they, or `poll`, threw.
+  /// what they, or `poll`, which may be null, threw.
   void Finish(std::size_t count, const Poll& poll);
 
  private:

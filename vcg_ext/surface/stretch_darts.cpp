@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface/stretch_darts.h"
 
+#include <chrono>
 #include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "common/work_ahead.h"
 #include "planar/lay_apart.h"
 #include "planar/normalized_chart.h"
 #include "surface/cone_point_darts.h"
@@ -121,10 +123,23 @@ DartedChart FlatUncut(const ChartPatch& patch, const DartGoal& goal, const std::
 // on how coarse that is.
 DartedChart CutLargeUnfinished(const ChartPatch& patch, const DartGoal& goal,
                                const std::function<void()>& poll, const KnownOfChart& known) {
+  const FewTriangles &few = known.coarser->ForTrials(poll), &more = known.coarser->LastQuarter(poll);
+  constexpr double kFiner = 1.2;
+  const bool may_try_again =
+      goal.may_give_up && static_cast<double>(more.mesh.triangles.rows()) >=
+                              kFiner * static_cast<double>(few.mesh.triangles.rows());
+  DartedChart by_more;
+  WorkAhead second_try({[&](const Poll& poll_ahead) {
+    by_more = CutLargeChart(patch, more, goal, poll_ahead, known.coarser);
+  }});
+  // A first try that lasts seldom succeeds.
+  constexpr std::chrono::milliseconds kPatience(200);
+  const Poll poll_first = may_try_again ? second_try.BeginningAfter(kPatience, poll) : poll;
   DartedChart best;
   for (const bool again : {false, true}) {
-    const FewTriangles& few = again ? known.coarser->LastQuarter(poll) : known.coarser->ForTrials(poll);
-    DartedChart chart = CutLargeChart(patch, few, goal, poll, known.coarser);
+    if (again) second_try.Finish(1, poll);
+    DartedChart chart =
+        again ? std::move(by_more) : CutLargeChart(patch, few, goal, poll_first, known.coarser);
     if (chart.flat.ok && chart.flat.l2_stretch <= goal.l2_stretch) return chart;
     // What the coarser chart doesn't reach, this one may.
     if (chart.count > 0 && FinishDarts(goal, poll, chart)) {
@@ -133,10 +148,7 @@ DartedChart CutLargeUnfinished(const ChartPatch& patch, const DartGoal& goal,
     } else if (!best.flat.ok) {
       best = std::move(chart);
     }
-    constexpr double kFiner = 1.2;
-    const auto faces = static_cast<double>(few.mesh.triangles.rows());
-    if (again || !goal.may_give_up) break;
-    if (static_cast<double>(known.coarser->LastQuarter(poll).mesh.triangles.rows()) < kFiner * faces) break;
+    if (!may_try_again) break;
   }
   return best.finished || goal.is_trial ? best : FlatUncut(patch, goal, poll, known);
 }
