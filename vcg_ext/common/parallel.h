@@ -118,26 +118,48 @@ void InParallelIf(bool is_worth_it, int count, const std::function<void()>& poll
     for (int k = 0; k < count; ++k) work(k, poll);
 }
 
+/// InParallel, but for items that are in vain: those for which is_in_vain(k) are not begun, or are given up
+/// by `poll`.
+template <class IsInVain, class Work>
+void InParallelUnless(const IsInVain& is_in_vain, int count, const std::function<void()>& poll,
+                      const Work& work) {
+  struct GivenUp {};
+  InParallel(count, poll, [&](int k, const std::function<void()>& poll_item) {
+    const auto poll_or_give_up = [&] {
+      poll_item();
+      if (is_in_vain(k)) throw GivenUp();
+    };
+    try {
+      if (!is_in_vain(k)) work(k, poll_or_give_up);
+    } catch (const GivenUp&) {
+    }
+  });
+}
+
 /// The first k of 0..count-1 for which work(k, poll) returns true, else `count`. Those after it are tried
 /// ahead on threads that are free, and given up by `poll`; they must write nothing that the result hangs on.
 template <class Work>
 int FirstThat(int count, const std::function<void()>& poll, const Work& work) {
-  struct GivenUp {};
   std::atomic<int> first{count};
-  InParallel(count, poll, [&](int k, const std::function<void()>& poll_item) {
-    const auto poll_or_give_up = [&] {
-      poll_item();
-      if (k > first) throw GivenUp();
-    };
-    try {
-      if (k > first || !work(k, poll_or_give_up)) return;
-    } catch (const GivenUp&) {
-      return;
-    }
-    for (int known = first; k < known && !first.compare_exchange_weak(known, k);) {
-    }
-  });
+  InParallelUnless([&](int k) { return k > first; }, count, poll,
+                   [&](int k, const auto& poll_item) {
+                     if (!work(k, poll_item)) return;
+                     for (int known = first; k < known && !first.compare_exchange_weak(known, k);) {
+                     }
+                   });
   return first;
+}
+
+/// InParallel for k = 0..count-1, and, on threads that have nothing else to do meanwhile, for as many of
+/// `ahead` more as they come to: one that is not done then is given up by `poll`.
+template <class Work>
+void InParallelWithAhead(int count, int ahead, const std::function<void()>& poll, const Work& work) {
+  std::atomic<int> open{count};
+  InParallelUnless([&](int k) { return k >= count && open == 0; }, count + ahead, poll,
+                   [&](int k, const auto& poll_item) {
+                     work(k, poll_item);
+                     if (k < count) --open;
+                   });
 }
 
 }  // namespace dcharts

@@ -95,15 +95,9 @@ class DartSearch {
       if (worst < 0) return;
       std::vector<int> tips = Tips(paths, stretch, worst);
       const std::vector<char> hopeless = WithAround(worst, paths);
-      // Most darts don't help: a thread without work tries where the next one goes then.
-      if (failures + 1 < most_failures && FreeThreads() >= static_cast<int>(tips.size())) {
-        std::vector<char> now = hopeless;
-        hopeless_.swap(now);
-        const int next = Worst(paths, stretch);
-        if (next >= 0) TryAll(paths, Joined(tips, Tips(paths, stretch, next)));
-        hopeless_.swap(now);
-      }
-      TryThoseThatMayWin(paths, tips);
+      TryThoseThatMayWin(
+          paths, tips,
+          failures + 1 < most_failures ? TipsThen(paths, stretch, hopeless) : std::vector<int>());
       if (CutBest(paths, tips)) continue;
       ++failures;
       hopeless_ = hopeless;
@@ -141,6 +135,19 @@ class DartSearch {
     return tips;
   }
 
+  // Where darts go next if none helps now. Most don't, so these are tried ahead; of a small chart that
+  // isn't worth it.
+  std::vector<int> TipsThen(const PatchPaths& paths, const std::vector<double>& stretch,
+                            std::vector<char> hopeless) {
+    constexpr size_t kManyTriangles = 15000;
+    if (FreeThreads() == 0 || (!goal_.is_of_large && chart_.patch.faces.size() < kManyTriangles)) return {};
+    hopeless_.swap(hopeless);
+    const int next = Worst(paths, stretch);
+    std::vector<int> tips = next >= 0 ? Tips(paths, stretch, next) : std::vector<int>();
+    hopeless_.swap(hopeless);
+    return tips;
+  }
+
   // A dart to a place near the end of another one does about the same.
   bool IsNearOneOf(const PatchPaths& paths, const std::vector<int>& tips, int tip) const {
     constexpr double kNear = 0.1;  // of its length
@@ -151,13 +158,6 @@ class DartSearch {
     });
   }
 
-  // Each once.
-  static std::vector<int> Joined(std::vector<int> some, const std::vector<int>& others) {
-    for (int tip : others)
-      if (std::find(some.begin(), some.end(), tip) == some.end()) some.push_back(tip);
-    return some;
-  }
-
   double Length(const PatchPaths& paths, int tip) const { return paths.Distance(chart_.patch.Vertex(tip)); }
 
   // What a dart brings. By its length alone, many small ones would come before the one that does the work.
@@ -165,8 +165,9 @@ class DartSearch {
     return (chart_.flat.l2_stretch - std::max(l2_stretch, goal_.l2_stretch)) / std::sqrt(length);
   }
 
-  // Makes the trials that have not been made, the shortest first, but for those that can't win any more.
-  void TryThoseThatMayWin(const PatchPaths& paths, std::vector<int> tips) {
+  // Makes the trials that have not been made, the shortest first, but for those that can't win any more, and
+  // some of `ahead` meanwhile.
+  void TryThoseThatMayWin(const PatchPaths& paths, std::vector<int> tips, const std::vector<int>& ahead) {
     std::stable_sort(tips.begin(), tips.end(),
                      [&](int a, int b) { return Length(paths, a) < Length(paths, b); });
     double best = -std::numeric_limits<double>::infinity();
@@ -174,30 +175,39 @@ class DartSearch {
       std::vector<int> some;
       for (; k < tips.size() && some.size() <= static_cast<size_t>(FreeThreads()); ++k)
         if (!(Gain(goal_.l2_stretch, Length(paths, tips[k])) < best)) some.push_back(tips[k]);
-      TryAll(paths, some);
+      TryAll(paths, some, ahead);
       for (int tip : some)
         if (const DartedChart& trial = trials_.at(tip); trial.count > 0)
           best = std::max(best, Gain(trial.flat.l2_stretch, Length(paths, tip)));
     }
   }
 
-  // Makes the trials that have not been made.
-  void TryAll(const PatchPaths& paths, std::vector<int> tips) {
+  // Makes the trials that have not been made, and, on threads that are idle, some of `ahead`.
+  void TryAll(const PatchPaths& paths, std::vector<int> tips, const std::vector<int>& ahead) {
     for (int tip : tips)
       if (!MayHelp(chart_.flat, Length(paths, tip), goal_)) trials_.emplace(tip, DartedChart());
-    tips.erase(std::remove_if(tips.begin(), tips.end(), [&](int tip) { return trials_.count(tip) > 0; }),
-               tips.end());
+    const auto is_made = [&](int tip) { return trials_.count(tip) > 0; };
+    tips.erase(std::remove_if(tips.begin(), tips.end(), is_made), tips.end());
     if (tips.empty()) return;
+    const int count = static_cast<int>(tips.size());
+    for (int tip : ahead)
+      if (!is_made(tip) && std::find(tips.begin(), tips.end(), tip) == tips.end() &&
+          MayHelp(chart_.flat, Length(paths, tip), goal_))
+        tips.push_back(tip);
     // Most darts don't help, which shows in a map without the finish, made from the one the chart has.
     if (!plain_) {
       plain_ = HasFinish(goal_) ? FlatWithoutFinish(chart_.patch, &chart_.flat.uv, poll_) : chart_.flat;
     }
-    std::vector<DartedChart> made(tips.size());
-    InParallel(static_cast<int>(tips.size()), poll_, [&](int k, const std::function<void()>& poll) {
-      const int v = chart_.patch.Vertex(tips[k]);
-      if (!Try(tips[k], paths.Path(v), Length(paths, tips[k]), poll, made[k])) made[k] = {};
-    });
-    for (size_t k = 0; k < tips.size(); ++k) trials_.emplace(tips[k], std::move(made[k]));
+    std::vector<std::optional<DartedChart>> made(tips.size());
+    InParallelWithAhead(count, static_cast<int>(tips.size()) - count, poll_,
+                        [&](int k, const std::function<void()>& poll) {
+                          const int v = chart_.patch.Vertex(tips[k]);
+                          DartedChart trial;
+                          if (!Try(tips[k], paths.Path(v), Length(paths, tips[k]), poll, trial)) trial = {};
+                          made[k] = std::move(trial);
+                        });
+    for (size_t k = 0; k < tips.size(); ++k)
+      if (made[k]) trials_.emplace(tips[k], std::move(*made[k]));
   }
 
   // Cuts the best dart to one of the tips that have been tried, if any helps.

@@ -26,6 +26,7 @@ struct DartGoal {
   /// It only counts whether the goal is reached: no map is made of a chart that a coarser one, or its own with
   /// that one's darts, shows to stay above it.
   bool is_trial = false;
+  bool is_of_large = false;  ///< the chart stands for a large one
   double unit =
       1;  ///< the length of dart for which the Linf stretch has to fall by kLinfPerUnit, model units
 };

@@ -83,7 +83,9 @@ DartedChart CutLargeChart(const ChartPatch& patch, const FewTriangles& few, cons
     ChartPatch small{few.source_face, few.mesh, few.opposite};
     for (int v = 0; v < small.VertexCount(); ++v)
       small.mesh.positions.row(v) = patch.mesh.positions.row(few.source_vertex[v]);
-    const DartedChart darted = CutCoarserChart(small, goal, poll);
+    DartGoal goal_of_small = goal;
+    goal_of_small.is_of_large = true;
+    const DartedChart darted = CutCoarserChart(small, goal_of_small, poll);
     if (goal.may_give_up && !(darted.flat.l2_stretch - 1 <= kHopeless * (goal.l2_stretch - 1))) {
       chart.flat.why = "A coarser chart is stretched too much.";
       return chart;
@@ -125,9 +127,8 @@ DartedChart CutLargeUnfinished(const ChartPatch& patch, const DartGoal& goal,
                                const std::function<void()>& poll, const KnownOfChart& known) {
   const FewTriangles &few = known.coarser->ForTrials(poll), &more = known.coarser->LastQuarter(poll);
   constexpr double kFiner = 1.2;
-  const bool may_try_again =
-      goal.may_give_up && static_cast<double>(more.mesh.triangles.rows()) >=
-                              kFiner * static_cast<double>(few.mesh.triangles.rows());
+  const bool may_try_again = goal.may_give_up && static_cast<double>(more.mesh.triangles.rows()) >=
+                                                     kFiner * static_cast<double>(few.mesh.triangles.rows());
   DartedChart by_more;
   WorkAhead second_try({[&](const Poll& poll_ahead) {
     by_more = CutLargeChart(patch, more, goal, poll_ahead, known.coarser);
