@@ -288,6 +288,27 @@ TEST(StretchDarts, WhatItsOwnDoNotSaveThoseOfACoarserChartMay) {
   for (int h : saved.edges) EXPECT_GE(patch.opposite[h], 0);
 }
 
+TEST(StretchDarts, ATrialOfManyTrianglesGoesByACoarserChartAndMakesNoMapInVain) {
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  const ChartPatch patch = TestSurface(shapes::SphericalCap(70, 1.57)).WholePatch();
+  ASSERT_FALSE(IsLargeChart(patch.mesh));
+  DartGoal goal = Goal(1.01, kAny, patch.Diagonal());
+  goal.is_trial = true;
+  const DartedChart reached = CutStretchDarts(patch, goal, [] {});
+  EXPECT_GE(reached.count, 1);
+  EXPECT_TRUE(reached.finished);
+  EXPECT_TRUE(reached.flat.ok);
+  EXPECT_LE(reached.flat.l2_stretch, goal.l2_stretch);
+  EXPECT_NE(reached.coarser, nullptr);
+  EXPECT_FALSE(Overlaps(reached));
+  DartGoal none = Goal(1.01, kAny, 0);
+  EXPECT_TRUE(CutStretchDarts(patch, none, [] {}).flat.ok) << "a map above the goal";
+  none.is_trial = true;
+  const DartedChart missed = CutStretchDarts(patch, none, [] {});
+  EXPECT_FALSE(missed.flat.ok);
+  EXPECT_TRUE(missed.edges.empty());
+}
+
 TEST(StretchDarts, ALargeChartThatLapsOverALittleIsDrawnApart) {
   for (const double turns : {1.02, 1.5}) {
     DartedChart chart = Uncut(TestSurface(test::Ramp(turns, 600, 27)).WholePatch());

@@ -41,7 +41,9 @@ TEST(Threads, AreAsManyAsWanted) {
     const test::Threads threads(count);
     EXPECT_EQ(ThreadCount(), count);
     std::atomic<int> helpers{0};
-    OnThreads(count - 1, [&](bool calls) { helpers += calls ? 0 : 1; });
+    {
+      const Helpers all(count - 1, [&] { ++helpers; });
+    }
     EXPECT_EQ(helpers, count - 1);
   }
   EXPECT_GE(ThreadCount(), 1);
@@ -98,11 +100,70 @@ TEST(Threads, OneThatWaitsLendsItsPlace) {
     while (FreeThreads() == 0 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
     most = FreeThreads();
     std::atomic<int> helpers{0};
-    OnThreads(2, [&](bool calls) { helpers += calls ? 0 : 1; });
+    {
+      const Helpers two(2, [&] { ++helpers; });
+    }
     EXPECT_EQ(helpers, 1);
   });
   EXPECT_EQ(most, 1);
   EXPECT_EQ(FreeThreads(), 1);
+}
+
+// Until it is so, but not for ever.
+template <class Condition>
+bool Comes(const Condition& condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!condition() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  return condition();
+}
+
+TEST(Threads, OneThatBecomesFreeJoinsALoop) {
+  const test::Threads threads(2);
+  const auto caller = std::this_thread::get_id();
+  std::atomic<bool> begun{false}, ends{false}, joined{false};
+  // The only helper is at work elsewhere when the loop begins.
+  Helpers other(1, [&] { Comes([&] { return ends.load(); }); });
+  InParallel(2, {}, [&](int, const auto& poll) {
+    if (std::this_thread::get_id() != caller) {
+      joined = true;
+      return;
+    }
+    if (begun) return;
+    begun = true;
+    EXPECT_EQ(FreeThreads(), 0);
+    ends = true;
+    EXPECT_TRUE(Comes([&] {
+      poll();
+      return joined.load();
+    }));
+  });
+  EXPECT_TRUE(joined);
+}
+
+TEST(Threads, WhatIsAheadIsDoneWhileTheRestLastsOnly) {
+  for (int count : {1, 2, 8}) {
+    const test::Threads threads(count);
+    std::atomic<int> begun{0}, given_up{0};
+    std::vector<int> done(6, 0);
+    // The first waits until another is begun ahead, where there is a thread; that would never end by itself.
+    InParallelWithAhead(1, 5, {}, [&](int k, const auto& poll) {
+      if (k == 0) {
+        EXPECT_TRUE(count == 1 || Comes([&] { return begun > 0; }));
+        done[0] = 1;
+        return;
+      }
+      ++begun;
+      try {
+        for (;;) poll();
+      } catch (...) {
+        ++given_up;
+        throw;
+      }
+    });
+    EXPECT_EQ(done[0], 1);
+    EXPECT_EQ(begun, given_up);
+    EXPECT_EQ(begun > 0, count > 1);
+  }
 }
 
 TEST(Threads, AnErrorStopsAllAndComesOut) {

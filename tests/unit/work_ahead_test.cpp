@@ -74,6 +74,22 @@ TEST(WorkAhead, AnErrorComesOutWhereItIsAskedFor) {
   }
 }
 
+TEST(WorkAhead, BeginsWhenWhatIsDoneMeanwhileLasts) {
+  const test::Threads threads(2);
+  std::atomic<bool> begun{false};
+  WorkAhead work({[&](const Poll&) { begun = true; }});
+  const Poll soon = work.BeginningAfter(std::chrono::milliseconds(0), {});
+  const Poll late = work.BeginningAfter(std::chrono::hours(1), {});
+  late();
+  EXPECT_FALSE(begun);
+  EXPECT_TRUE(Comes([&] {
+    soon();
+    return begun.load();
+  }));
+  soon();
+  work.Finish(1, {});
+}
+
 TEST(WorkAhead, GivesWayToHelpers) {
   const test::Threads threads(2);
   std::atomic<int> polls{0};
@@ -88,17 +104,15 @@ TEST(WorkAhead, GivesWayToHelpers) {
   EXPECT_EQ(FreeThreads(), 1);
   EXPECT_EQ(IdleThreads(), 0);
   std::atomic<bool> rested{false};
-  OnThreads(1, [&](bool calls) {
-    if (calls) {
-      int before = -1;
-      rested = Comes([&] {
-        const int last = std::exchange(before, polls.load());
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        return last == polls;
-      });
-    }
-    Comes([&] { return rested.load(); });
-  });
+  {
+    const Helpers one(1, [&] { Comes([&] { return rested.load(); }); });
+    int before = -1;
+    rested = Comes([&] {
+      const int last = std::exchange(before, polls.load());
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      return last == polls;
+    });
+  }
   EXPECT_TRUE(rested);
   const int after = polls;
   EXPECT_TRUE(Comes([&] { return polls > after; }));
@@ -114,7 +128,9 @@ TEST(WorkAhead, TakesThePlaceOfTheThreadThatWaitsForIt) {
       return waits.load();
     }));
     std::atomic<int> helpers{0};
-    OnThreads(4, [&](bool calls) { helpers += calls ? 0 : 1; });
+    {
+      const Helpers four(4, [&] { ++helpers; });
+    }
     helpers_beside = helpers;
   }});
   work.Begin();
