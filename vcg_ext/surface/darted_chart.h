@@ -23,8 +23,8 @@ struct DartGoal {
   int most_darts = 12;
   /// A large chart that a coarser one shows to stay above `l2_stretch` may be left unflattened.
   bool may_give_up = false;
-  /// It only counts whether the goal is reached: no map is made of a chart that a coarser one, or its own with
-  /// that one's darts, shows to stay above it.
+  /// It only counts whether the goal is reached: no map is made of a chart that a coarser one, or its own
+  /// with that one's darts, shows to stay above it.
   bool is_trial = false;
   bool is_of_large = false;  ///< the chart stands for a large one
   double unit =
