@@ -122,9 +122,10 @@ class BorderGraphCut {
   }
 
   void StraightenPairs(const std::vector<Pair*>& pairs, ChartIds& ids) {
+    constexpr int kManyFaces = 20000;  // of fewer, a border is not worth a thread
     std::vector<BorderBand> bands(pairs.size());
-    InParallel(
-        static_cast<int>(pairs.size()), [&] { progress_.Poll(); },
+    InParallelIf(
+        surface_.FaceCount() >= kManyFaces, static_cast<int>(pairs.size()), [&] { progress_.Poll(); },
         [&](int k, const std::function<void()>& poll) {
           const auto [a, b] = LargerFirst(*pairs[k]);
           std::unique_ptr<Bander> bander = FreeBander();
