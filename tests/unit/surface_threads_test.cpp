@@ -3,18 +3,20 @@
 #include "dcharts.h"
 
 #include <atomic>
-#include <chrono>
 #include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "comes.h"
 #include "common/parallel.h"
 #include "shapes.h"
 #include "thread_count.h"
 
 namespace dcharts {
 namespace {
+
+using test::Comes;
 
 TEST(Threads, AnyNumberGivesTheSameBytes) {
   for (const SurfaceData& mesh : {shapes::Plush(32), shapes::Torus(14), shapes::CadPart(24)}) {
@@ -96,8 +98,7 @@ TEST(Threads, OneThatWaitsLendsItsPlace) {
     }
     EXPECT_EQ(FreeThreads(), 0);
     helps = true;
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (FreeThreads() == 0 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    Comes([] { return FreeThreads() > 0; });
     most = FreeThreads();
     std::atomic<int> helpers{0};
     {
@@ -107,14 +108,6 @@ TEST(Threads, OneThatWaitsLendsItsPlace) {
   });
   EXPECT_EQ(most, 1);
   EXPECT_EQ(FreeThreads(), 1);
-}
-
-// Until it is so, but not for ever.
-template <class Condition>
-bool Comes(const Condition& condition) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (!condition() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
-  return condition();
 }
 
 TEST(Threads, OneThatBecomesFreeJoinsALoop) {

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "comes.h"
 #include "common/errors.h"
 #include "common/threads.h"
 #include "thread_count.h"
@@ -16,15 +17,9 @@
 namespace dcharts {
 namespace {
 
-const Poll kNoPoll = [] {};
+using test::Comes;
 
-// Until it is so, but not for ever.
-template <class Condition>
-bool Comes(const Condition& condition) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (!condition() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
-  return condition();
-}
+const Poll kNoPoll = [] {};
 
 TEST(WorkAhead, StepsAreDoneOnceAndInTurn) {
   for (int count : {1, 2, 8}) {
