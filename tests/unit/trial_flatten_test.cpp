@@ -56,6 +56,25 @@ TEST(TrialFlatten, TheBoundDecides) {
   }
 }
 
+TEST(TrialFlatten, AHopelessStartIsNotImproved) {
+  const ChartMesh finger = Tube(12, 20, true, [](double angle, int ring) -> Eigen::RowVector3d {
+    return {std::cos(angle), std::sin(angle), 0.5 * ring};
+  });
+  int steps = 0;
+  const auto count_steps = [&steps] { ++steps; };
+  TrialOptions options;
+  options.l2_bound = 1e6;
+  EXPECT_GT(TrialFlatten(finger, options, count_steps).l2_stretch, 1.5);
+  const int steps_to_improve = steps;
+  steps = 0;
+  options.l2_bound = 1.4;
+  const TrialFlattening trial = TrialFlatten(finger, options, count_steps);
+  EXPECT_TRUE(trial.rejected);
+  EXPECT_FALSE(trial.ok);
+  EXPECT_GT(trial.l2_stretch, 1.5);
+  EXPECT_LT(steps, steps_to_improve);
+}
+
 TEST(TrialFlatten, StartsFromUvsWithoutFlips) {
   const ChartMesh chart = SphereCap(14, 1.4);
   const Flattening full = Flatten(chart);

@@ -44,6 +44,10 @@ void BlockCholesky::Analyze(const BlockMatrix& matrix) {
     }
   }
   FindParts(count);
+  next_alike_.assign(At(size), -1);
+  for (int k = 0; k < size; ++k)
+    if (const int next = parent_[At(k)]; next >= 0 && count[At(k)] == count[At(next)] + 1)
+      next_alike_[At(k)] = next;
   start_.assign(At(size) + 1, 0);
   for (int k = 0; k < size; ++k) start_[At(k) + 1] = start_[At(k)] + count[At(k)];
   row_.resize(At(start_.back()));
@@ -203,26 +207,50 @@ bool BlockCholesky::FactorizeTop(const BlockMatrix& matrix, const std::vector<Up
 }
 
 // The columns of a part in a row: their blocks of L from `y`, which is zero there then, and what they add to
-// the others and to the row's diagonal `d`.
+// the others and to the row's diagonal `d`. Of two columns that are alike below, both add to each block at
+// once.
 void BlockCholesky::Eliminate(int part, int row, std::vector<int>& end, std::vector<Matrix2d>& y,
                               Matrix2d& d) {
   // Known to stay where they are, which the compiler can't tell.
-  const int *const starts = start_.data(), *const rows = row_.data(), *const columns = columns_.data();
+  const int *const starts = start_.data(), *const rows = row_.data(), *const columns = columns_.data(),
+                   *const next_alike = next_alike_.data();
   int* const ends = end.data();
   Matrix2d *const l = l_.data(), *const blocks = y.data();
-  Matrix2d sum = d;
-  const int last = End(part, row);
-  for (int c = Begin(part, row); c < last; ++c) {
-    const int i = columns[c];
+  Matrix2d sum = d.transpose();
+  const auto take = [&](int i) {
     const Matrix2d x = blocks[i];
     blocks[i].setZero();
-    const int stop = ends[i]++;
-    for (int p = starts[i]; p < stop; ++p) blocks[rows[p]].noalias() -= l[p].lazyProduct(x);
-    const Matrix2d turned = inverse_d_[At(i)] * x;
-    sum.noalias() -= x.transpose().lazyProduct(turned);
-    l[stop] = turned.transpose();
+    return x;
+  };
+  const auto divide = [&](int i, int at, const Matrix2d& x) {
+    const Matrix2d turned = inverse_d_[At(i)].lazyProduct(x);
+    const Matrix2d of_l = turned.transpose();
+    l[at] = of_l;
+    sum.noalias() -= of_l.lazyProduct(x);
+  };
+  const int last = End(part, row);
+  for (int c = Begin(part, row); c < last; ++c) {
+    const int i = columns[c], stop = ends[i]++;
+    const Matrix2d x = take(i);
+    int p = starts[i];
+    if (c + 1 == last || columns[c + 1] != next_alike[i]) {
+      for (; p < stop; ++p) blocks[rows[p]].noalias() -= l[p].lazyProduct(x);
+      divide(i, stop, x);
+      continue;
+    }
+    const int next = columns[++c], stop_next = ends[next]++;
+    blocks[next].noalias() -= l[p++].lazyProduct(x);
+    const Matrix2d x_next = take(next);
+    for (int q = starts[next]; q < stop_next; ++p, ++q) {
+      Matrix2d block = blocks[rows[q]];
+      block.noalias() -= l[p].lazyProduct(x);
+      block.noalias() -= l[q].lazyProduct(x_next);
+      blocks[rows[q]] = block;
+    }
+    divide(i, stop, x);
+    divide(next, stop_next, x_next);
   }
-  d = sum;
+  d = sum.transpose();
 }
 
 void BlockCholesky::Solve(std::vector<Eigen::Vector2d>& x) const {

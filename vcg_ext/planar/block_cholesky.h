@@ -55,6 +55,7 @@ class BlockCholesky {
                  Eigen::Matrix2d& d);
 
   std::vector<int> parent_;              // elimination tree, -1 at roots
+  std::vector<int> next_alike_;          // the parent of a column that has blocks in the same rows below it
   std::vector<int> part_;                // per column: in a group, or in the top
   std::vector<int> rows_of_[kParts];     // ascending
   std::vector<int> part_start_[kParts];  // of each row of L in columns_, part by part; kFirst's: and the end

@@ -26,6 +26,8 @@ using Poll = std::function<void()>;
 // Symmetric Dirichlet energies over 4, minus 1, as in StretchEnergy:
 constexpr double kNewtonWorks = 3;  // above it reweighted steps come first
 constexpr double kFarFromFlat = 3;  // still above it after them: no chart that anybody would want
+constexpr double kHopeless = 10;    // of a start: nothing brings it below a bound such as kUsualBound
+constexpr double kUsualBound = 2;   // L2 stretch
 constexpr int kReweightedSteps = 3;
 constexpr double kCloseEnough = 0.05;  // of L2 - 1: what the last Newton step may still gain
 
@@ -103,6 +105,8 @@ TrialFlattening TrialFlatten(const ChartMesh& chart, const TrialOptions& options
   PlanePoints uv;
   double energy = FlattenStart(normalized.mesh, shapes, options.start, system, poll, uv);
   if (!std::isfinite(energy)) return NoMap("No flat start without flipped triangles was found.");
+  if (energy > kHopeless && options.l2_bound < kUsualBound)
+    return Judged(Measured(normalized, shapes, uv), options, rim);
   if (energy > kNewtonWorks) {
     energy = Descend({Kind::kSymmetricDirichlet}, {StepKind::kReweighted, kReweightedSteps, 0}, triangles,
                      shapes, system, poll, uv);

@@ -63,11 +63,15 @@ std::vector<double> Smoothed(const ChartPatch& patch, std::vector<double> value)
 constexpr double kLinfPerUnit = 1.5;
 constexpr double kShareOfL2 = 0.1;
 
+// What the mean stretch may be at most with a dart that helps.
+double MostL2(const Flattening& before, const DartGoal& goal) {
+  if (before.l2_stretch <= goal.l2_stretch) return goal.l2_stretch;
+  return 1 + (1 - kShareOfL2) * (before.l2_stretch - 1);
+}
+
 bool Helps(const Flattening& before, const Flattening& after, double length, const DartGoal& goal) {
-  if (!after.ok) return false;
-  if (before.l2_stretch > goal.l2_stretch)
-    return after.l2_stretch - 1 < (1 - kShareOfL2) * (before.l2_stretch - 1);
-  if (after.l2_stretch > goal.l2_stretch) return false;
+  if (!after.ok || after.l2_stretch > MostL2(before, goal)) return false;
+  if (before.l2_stretch > goal.l2_stretch) return true;
   return before.linf_stretch - std::max(after.linf_stretch, goal.linf_stretch) >
          kLinfPerUnit * length / goal.unit;
 }
@@ -242,10 +246,10 @@ class DartSearch {
     trial.count = 1;
     trial.tips.push_back(tip);
     const Points2 start = CarriedMap(chart_.patch, plain_->ok ? plain_->uv : chart_.flat.uv, trial.patch);
-    trial.flat = FlatWithoutFinish(trial.patch, &start, poll);
     DartGoal goal = goal_;
     if (chart_.flat.l2_stretch <= goal.l2_stretch)  // though not quite by the quick map
       goal.l2_stretch = std::max(goal.l2_stretch, plain_->l2_stretch);
+    trial.flat = FlatWithoutFinish(trial.patch, &start, poll, nullptr, MostL2(*plain_, goal));
     if (!Helps(*plain_, trial.flat, length, goal)) return false;
     if (!HasFinish(goal_)) {
       // What laps over a little may not do so with the finish.

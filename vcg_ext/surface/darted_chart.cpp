@@ -39,8 +39,9 @@ Flattening FlatWithFinish(const ChartPatch& patch, const DartGoal& goal, const s
 }
 
 Flattening FlatWithoutFinish(const ChartPatch& patch, const Points2* start, const std::function<void()>& poll,
-                             CoarserCharts* coarser) {
+                             CoarserCharts* coarser, double l2_bound) {
   TrialOptions options;
+  options.l2_bound = l2_bound;
   options.coarser = coarser;
   options.start = start;
   return FlatOf(TrialFlatten(patch.mesh, options, poll));

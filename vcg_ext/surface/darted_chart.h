@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -57,9 +58,10 @@ bool Reached(const Flattening& flat, const DartGoal& goal);
 /// As the atlas will have it. `start`, `coarser`: see FlattenOptions.
 Flattening FlatWithFinish(const ChartPatch& patch, const DartGoal& goal, const std::function<void()>& poll,
                           const Points2* start = nullptr, CoarserCharts* coarser = nullptr);
-/// The quick way, without the finish; `start` may be null.
+/// The quick way, without the finish; `start` may be null. Not ok when it is sure to stay above `l2_bound`.
 Flattening FlatWithoutFinish(const ChartPatch& patch, const Points2* start, const std::function<void()>& poll,
-                             CoarserCharts* coarser = nullptr);
+                             CoarserCharts* coarser = nullptr,
+                             double l2_bound = std::numeric_limits<double>::infinity());
 /// The same of a trial that was made before.
 Flattening FlatOf(TrialFlattening trial);
 /// With the finish if the goal has it.
