@@ -26,7 +26,7 @@ using Poll = std::function<void()>;
 // Symmetric Dirichlet energies over 4, minus 1, as in StretchEnergy:
 constexpr double kNewtonWorks = 3;  // above it reweighted steps come first
 constexpr double kFarFromFlat = 3;  // still above it after them: no chart that anybody would want
-constexpr double kHopeless = 10;    // of a start: nothing brings it below a bound such as kUsualBound
+constexpr double kHopeless = 100;   // of a start: nothing brings it below a bound such as kUsualBound
 constexpr double kUsualBound = 2;   // L2 stretch
 constexpr int kReweightedSteps = 3;
 constexpr double kCloseEnough = 0.05;  // of L2 - 1: what the last Newton step may still gain
